@@ -1,0 +1,131 @@
+#include "core/design/design_file.h"
+
+#include <cmath>
+
+#include "core/design/json_reader.h"
+#include "core/text.h"
+
+namespace rhombloom {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr int max_operations = 10000;
+
+Expected<Element> read_element(const json& value)
+{
+    Element element;
+    ObjectReader reader(value, "$.element");
+    element.la = reader.number("la_mm", element.la, 10, 1000);
+    element.lb = reader.number("lb_mm", element.lb, 10, 1500);
+    element.alpha = radians(reader.number("alpha_deg", degrees(element.alpha), 40, 85));
+    element.thickness = reader.number("thickness_mm", element.thickness, 0.05, 5);
+    if (auto ok = reader.finish(); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    if (auto ok = check(element); !ok) {
+        return refuse("$.element: " + ok.error().message);
+    }
+    return element;
+}
+
+Expected<Operation> read_place(ObjectReader& reader)
+{
+    Place place;
+    reader.require("shape");
+    place.id = reader.text("id", "body");
+    place.shape = reader.text("shape", "");
+    place.position = reader.point("position_mm", place.position);
+    place.rotation_deg = reader.point("rotation_deg", place.rotation_deg);
+    if (auto ok = reader.finish(); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    return place;
+}
+
+Expected<Operation> read_operation(const json& value, const std::string& path)
+{
+    ObjectReader reader(value, path);
+    reader.require("op");
+    const std::string op = reader.text("op", "place");
+    if (op == "place") {
+        return read_place(reader);
+    }
+    reader.fail("op", "is \"" + op.substr(0, 60) + "\": expected place");
+    return tl::make_unexpected(reader.finish().error());
+}
+
+//! Degrees to ten decimals: what was read from a file is written again as it stood there.
+double tidy_degrees(double angle)
+{
+    constexpr double ten_decimals = 1e10;
+    return std::round(degrees(angle) * ten_decimals) / ten_decimals;
+}
+
+json write_point(const Vec3& p)
+{
+    return {p.x(), p.y(), p.z()};
+}
+
+nlohmann::ordered_json write(const Place& place)
+{
+    return {{"op", "place"},
+            {"id", place.id},
+            {"shape", place.shape},
+            {"position_mm", write_point(place.position)},
+            {"rotation_deg", write_point(place.rotation_deg)}};
+}
+
+} // namespace
+
+Expected<Design> parse_design(std::string_view text)
+{
+    auto root = parse_json(text);
+    if (!root) {
+        return tl::make_unexpected(root.error());
+    }
+    Design design;
+    ObjectReader reader(*root, "$");
+    reader.require("rhombloom");
+    reader.require("operations");
+    reader.integer("rhombloom", Design::version, 1, Design::version);
+    design.title = reader.text("title", "");
+    if (const json* element = reader.take("element")) {
+        auto read = read_element(*element);
+        read ? void(design.element = *read) : reader.fail(read.error());
+    }
+    const json* operations = reader.take("operations");
+    if (operations != nullptr && (!operations->is_array() || operations->empty() || operations->size() > max_operations)) {
+        reader.fail("operations", "is " + describe(*operations) + ": expected a list of 1 to 10000 operations");
+    }
+    if (auto ok = reader.finish(); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    for (std::size_t i = 0; i < operations->size(); ++i) {
+        auto operation = read_operation((*operations)[i], "$.operations[" + std::to_string(i) + "]");
+        if (!operation) {
+            return tl::make_unexpected(operation.error());
+        }
+        design.operations.push_back(std::move(*operation));
+    }
+    return design;
+}
+
+std::string write_design(const Design& design)
+{
+    nlohmann::ordered_json root;
+    root["rhombloom"] = Design::version;
+    root["title"] = design.title;
+    root["element"] = {{"la_mm", design.element.la},
+                       {"lb_mm", design.element.lb},
+                       {"alpha_deg", tidy_degrees(design.element.alpha)},
+                       {"thickness_mm", design.element.thickness}};
+    root["operations"] = nlohmann::ordered_json::array();
+    for (const Operation& operation : design.operations) {
+        root["operations"].push_back(std::visit([](const auto& op) { return write(op); }, operation));
+    }
+    return root.dump(2) + "\n";
+}
+
+} // namespace rhombloom

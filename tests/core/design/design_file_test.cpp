@@ -1,0 +1,91 @@
+#include "core/design/design_file.h"
+
+#include <gtest/gtest.h>
+
+namespace rhombloom {
+namespace {
+
+std::string refusal(const std::string& json)
+{
+    const auto design = parse_design(json);
+    return design ? "accepted" : design.error().message;
+}
+
+constexpr const char* ball = R"("operations": [{"op": "place", "id": "body", "shape": "ball-30"}])";
+
+std::string with_element(const std::string& element)
+{
+    return std::string(R"({"rhombloom": 1, "element": )") + element + ", " + ball + "}";
+}
+
+TEST(DesignFile, EverythingButVersionAndOperationsHasADefault)
+{
+    const auto design = parse_design(std::string(R"({"rhombloom": 1, )") + ball + "}");
+    ASSERT_TRUE(design.has_value()) << design.error().message;
+    EXPECT_EQ(design->element.la, 80);
+    EXPECT_EQ(std::get<Place>(design->operations[0]).shape, "ball-30");
+}
+
+TEST(DesignFile, WritingAndReadingGivesTheSameBytes)
+{
+    const auto design = parse_design(with_element(R"({"la_mm": 61.7, "lb_mm": 67.9, "alpha_deg": 63.435})"));
+    ASSERT_TRUE(design.has_value());
+    const std::string once = write_design(*design);
+    EXPECT_EQ(write_design(*parse_design(once)), once);
+    EXPECT_NE(once.find("63.435"), std::string::npos);
+}
+
+struct Bad
+{
+    const char* json;
+    const char* place; //!< must occur in the message
+};
+
+class BadDesign : public testing::TestWithParam<Bad>
+{};
+
+TEST_P(BadDesign, IsRefusedWithItsPlace)
+{
+    EXPECT_NE(refusal(GetParam().json).find(GetParam().place), std::string::npos) << refusal(GetParam().json);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Corpus, BadDesign,
+    testing::Values(
+        Bad{"", "line 1"}, Bad{"nonsense", "line 1"}, Bad{"[]", "$ is a list"}, Bad{"{}", "$.rhombloom"},
+        Bad{R"({"rhombloom": 2, "operations": [1]})", "$.rhombloom is 2"},
+        Bad{R"({"rhombloom": "1", "operations": [1]})", "$.rhombloom is the text"},
+        Bad{R"({"rhombloom": 1})", "$.operations is missing"},
+        Bad{R"({"rhombloom": 1, "operations": []})", "$.operations is a list of 0"},
+        Bad{R"({"rhombloom": 1, "operations": {}})", "$.operations is an object"},
+        Bad{R"({"rhombloom": 1, "operations": [5]})", "$.operations[0] is the number 5"},
+        Bad{R"({"rhombloom": 1, "operations": [{"op": "explode"}]})", "$.operations[0].op"},
+        Bad{R"({"rhombloom": 1, "operations": [{"op": "place"}]})", "$.operations[0].shape is missing"},
+        Bad{R"({"rhombloom": 1, "rhombloom": 1})", "twice"},
+        Bad{R"({"rhombloom": 1, "colour": 1, "operations": [{"op": "place", "shape": "ball-30"}]})", "\"colour\""},
+        Bad{R"({"rhombloom": 1, "operations": [{"op": "place", "shape": "ball-30", "position_mm": [1, 2]}]})",
+            "$.operations[0].position_mm"},
+        Bad{R"({"rhombloom": 1, "operations": [{"op": "place", "shape": "ball-30", "position_mm": [1, 2, 1e300]}]})",
+            "$.operations[0].position_mm"},
+        Bad{R"({"rhombloom": NaN})", "line 1"}, Bad{R"({"rhombloom": 1e999})", "too large"}));
+
+TEST(DesignFile, RefusesImpossibleElementsWithTheKey)
+{
+    EXPECT_NE(refusal(with_element(R"({"la_mm": -80})")).find("la_mm is -80"), std::string::npos);
+    EXPECT_NE(refusal(with_element(R"({"la_mm": 1e308})")).find("la_mm"), std::string::npos);
+    EXPECT_NE(refusal(with_element(R"({"la_mm": 88, "lb_mm": 80})")).find("lb_mm is 80"), std::string::npos);
+    EXPECT_NE(refusal(with_element(R"({"la_mm": 80, "lb_mm": 80})")).find("lb_mm is 80"), std::string::npos);
+    for (const char* alpha : {"0", "90", "180", "-60", "1e308"}) {
+        EXPECT_NE(refusal(with_element(std::string(R"({"alpha_deg": )") + alpha + "}")).find("alpha_deg"),
+                  std::string::npos);
+    }
+}
+
+TEST(DesignFile, DeepNestingIsRefusedWithoutRecursion)
+{
+    EXPECT_NE(refusal(std::string(1 << 22, '[')).find("nested"), std::string::npos);
+    EXPECT_NE(refusal("{\"a\":" + std::string(100000, '[')).find("nested"), std::string::npos);
+}
+
+} // namespace
+} // namespace rhombloom
