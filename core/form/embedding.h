@@ -19,7 +19,7 @@ struct EmbedOptions
     double convex_weight = 0;    //!< cost of convex hinges relative to concave ones; 0 is the paper's energy
     double tolerance = 1e-9;     //!< largest absolute gradient component accepted as an equilibrium
     int max_iterations = 500;
-    double time_budget_s = 0;    //!< 0: none. A small budget is the coarse mode for dragging
+    double time_budget_s = 0; //!< 0: none. A small budget is the coarse mode for dragging
     //! Called once per iteration; return false to stop. Empty: never called.
     std::function<bool(const EmbedProgress&)> progress;
 };
@@ -33,9 +33,9 @@ struct EmbedReport
     double concavity_energy = 0; //!< mm, with the convex hinges' share
     double concavity_weight = 1;
     double convex_weight = 0;
-    double gradient_norm = 0;    //!< largest absolute component of the energy's gradient
-    double max_stretch = 0;      //!< largest (l - L) / L over all springs; negative when all are compressed
-    std::string message;         //!< why it did not converge; empty when it did
+    double gradient_norm = 0; //!< largest absolute component of the energy's gradient
+    double max_stretch = 0;   //!< largest (l - L) / L over all springs; negative when all are compressed
+    std::string message;      //!< why it did not converge; empty when it did
 };
 
 //! \brief Move the vertices of \p surface to the shape its elements settle in (Sec. 3.2).

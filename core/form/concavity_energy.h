@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+namespace rhombloom {
+
+//! \brief The two corner triangles at one end of an interior edge: x0 -> x1 is the edge, x2 the left apex, x3 the
+//! right one, seen from outside (Sec. 3.2).
+struct HingePoints
+{
+    Eigen::Vector3d x0, x1, x2, x3;
+};
+
+//! \brief Signed dihedral angle: zero when flat, positive when convex seen from outside, in (-pi, pi].
+double hinge_angle(const HingePoints& p);
+
+//! \brief hinge_angle() with its exact gradient and Hessian by (x0, x1, x2, x3).
+struct HingeAngle
+{
+    double angle = 0;
+    Eigen::Matrix<double, 12, 1> gradient;
+    Eigen::Matrix<double, 12, 12> hessian;
+};
+
+HingeAngle hinge_angle_derivatives(const HingePoints& p);
+
+//! \brief What an angle costs. Dimensionless: times la gives millimetres.
+struct HingeLaw
+{
+    double concavity_weight = 1; //!< w of `w gamma^2` for gamma < 0
+    double convex_weight = 0;    //!< convex hinges cost convex_weight * w * gamma^2
+    double ridge_start = 2.4;    //!< radians; valid shapes stay below 1.95
+};
+
+//! \brief Energy of one hinge, and its first and second derivative by the angle.
+struct HingeResponse
+{
+    double energy = 0; //!< without the ridge
+    double ridge = 0;  //!< makes the energy continuous at +-pi, where a folded hinge changes its sign
+    double moment = 0;
+    double stiffness = 0;
+};
+
+HingeResponse hinge_response(const HingeLaw& law, double angle);
+
+} // namespace rhombloom

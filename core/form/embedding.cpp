@@ -1,0 +1,149 @@
+#include "core/form/embedding.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/form/embedding_energy.h"
+#include "core/form/newton.h"
+#include "core/form/rigid_alignment.h"
+#include "core/text.h"
+
+namespace rhombloom {
+
+namespace {
+
+using Eigen::VectorXd;
+
+Eigen::Matrix3Xd positions(const Surface& surface)
+{
+    Eigen::Matrix3Xd points(3, surface.n_vertices());
+    for (const Vertex v : surface.vertices()) {
+        points.col(v.idx()) = surface.point(v);
+    }
+    return points;
+}
+
+// Centred, in units of la: far from the origin the differences would lose digits.
+VectorXd unknowns(const Eigen::Matrix3Xd& points, double la)
+{
+    const Eigen::Vector3d centre = points.rowwise().mean();
+    return ((points.colwise() - centre) / la).reshaped();
+}
+
+double max_stretch(const EmbeddingTerms& terms, const VectorXd& x)
+{
+    double largest = -1;
+    for (const SpringPair& pair : terms.springs) {
+        const double length = (x.segment<3>(3 * pair.b) - x.segment<3>(3 * pair.a)).norm();
+        for (int k = 0; k < pair.count; ++k) {
+            largest = std::max(largest, length / pair.rest[k] - 1);
+        }
+    }
+    return largest;
+}
+
+EmbedReport report_at(const EmbeddingTerms& terms, const EmbedOptions& options, const VectorXd& x)
+{
+    VectorXd gradient;
+    const EnergyParts parts = embedding_gradient(terms, x, gradient);
+    EmbedReport report;
+    report.spring_energy = parts.spring * terms.la;
+    report.concavity_energy = parts.concavity * terms.la;
+    report.energy = report.spring_energy + report.concavity_energy;
+    report.concavity_weight = options.concavity_weight;
+    report.convex_weight = options.convex_weight;
+    report.gradient_norm = gradient.lpNorm<Eigen::Infinity>();
+    report.max_stretch = max_stretch(terms, x);
+    report.converged = report.gradient_norm <= options.tolerance;
+    return report;
+}
+
+// A vertex that no computation could start from, as a sentence; empty when there is none.
+std::string bad_position(const Surface& surface)
+{
+    constexpr double largest = 1e9; // mm
+    for (const Vertex v : surface.vertices()) {
+        const Vec3& p = surface.point(v);
+        if (!(p.cwiseAbs().maxCoeff() <= largest)) {
+            return "vertex " + std::to_string(v.idx()) + " is at (" + to_text(p.x()) + ", " + to_text(p.y()) + ", " +
+                   to_text(p.z()) + ") mm: expected finite coordinates of at most " + to_text(largest) + " mm";
+        }
+    }
+    return {};
+}
+
+EmbedReport refusal(const EmbedOptions& options, std::string message)
+{
+    EmbedReport report;
+    report.concavity_weight = options.concavity_weight;
+    report.convex_weight = options.convex_weight;
+    report.message = std::move(message);
+    return report;
+}
+
+std::string why_not(const NewtonResult& result)
+{
+    switch (result.reason) {
+    case StopReason::Converged:
+        return {};
+    case StopReason::Cancelled:
+        return "stopped after " + std::to_string(result.iterations) + " iterations as asked";
+    case StopReason::IterationLimit:
+        return "not in equilibrium after " + std::to_string(result.iterations) + " iterations";
+    case StopReason::Stalled:
+        break;
+    }
+    return "no further decrease after " + std::to_string(result.iterations) + " iterations";
+}
+
+NewtonOptions newton_options(const EmbedOptions& options, double la)
+{
+    using Clock = std::chrono::steady_clock;
+    NewtonOptions out;
+    out.tolerance = options.tolerance;
+    out.max_iterations = options.max_iterations;
+    const auto begin = Clock::now();
+    out.progress = [&options, begin, la](int iteration, double energy, double gradient_norm) {
+        const std::chrono::duration<double> spent = Clock::now() - begin;
+        if (options.time_budget_s > 0 && spent.count() > options.time_budget_s) {
+            return false;
+        }
+        return !options.progress || options.progress({iteration, energy * la, gradient_norm});
+    };
+    return out;
+}
+
+} // namespace
+
+EmbedReport embed(Surface& surface, const Element& element, const EmbedOptions& options)
+{
+    if (std::string problem = bad_position(surface); !problem.empty()) {
+        return refusal(options, std::move(problem));
+    }
+    const EmbeddingTerms terms = embedding_terms(surface, element, options);
+    const Eigen::Matrix3Xd start = positions(surface);
+    VectorXd x = unknowns(start, element.la);
+    const NewtonResult result = newton(terms, x, newton_options(options, element.la));
+    Eigen::Matrix3Xd points = element.la * x.reshaped(3, surface.n_vertices());
+    align_rigidly(points, start);
+    for (const Vertex v : surface.vertices()) {
+        surface.set_point(v, points.col(v.idx()));
+    }
+    EmbedReport report = report_at(terms, options, unknowns(points, element.la));
+    report.iterations = result.iterations;
+    report.converged = result.reason == StopReason::Converged;
+    report.message = why_not(result);
+    return report;
+}
+
+EmbedReport measure(const Surface& surface, const Element& element, const EmbedOptions& options)
+{
+    if (std::string problem = bad_position(surface); !problem.empty()) {
+        return refusal(options, std::move(problem));
+    }
+    const EmbeddingTerms terms = embedding_terms(surface, element, options);
+    return report_at(terms, options, unknowns(positions(surface), element.la));
+}
+
+} // namespace rhombloom

@@ -1,0 +1,166 @@
+#include "core/form/embedding_energy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rhombloom {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+// Below this length (in la) the direction of a spring is noise.
+constexpr double smallest_length = 1e-12;
+
+Vector3d point(const VectorXd& x, int v)
+{
+    return x.segment<3>(3 * v);
+}
+
+HingePoints hinge_points(const VectorXd& x, const HingeVertices& hinge)
+{
+    return {point(x, hinge[0]), point(x, hinge[1]), point(x, hinge[2]), point(x, hinge[3])};
+}
+
+SpringResponse pair_response(const SpringLaw& law, const SpringPair& pair, double length)
+{
+    SpringResponse sum;
+    for (int k = 0; k < pair.count; ++k) {
+        const SpringResponse one = spring_response(law, pair.rest[k], length);
+        sum.energy += one.energy;
+        sum.barrier += one.barrier;
+        sum.force += one.force;
+        sum.stiffness += one.stiffness;
+    }
+    return sum;
+}
+
+bool is_active(const HingeResponse& response)
+{
+    return response.stiffness != 0;
+}
+
+void add_block(BlockMatrix& matrix, int block, const Matrix3d& addend)
+{
+    Eigen::Map<Matrix3d>(&matrix.value[9 * block]) += addend;
+}
+
+void add_spring(const EmbeddingTerms& terms, const SpringPair& pair, const std::array<int, 3>& blocks,
+                const VectorXd& x, double damping, BlockMatrix& hessian)
+{
+    const Vector3d difference = point(x, pair.b) - point(x, pair.a);
+    const double length = std::max(difference.norm(), smallest_length);
+    const SpringResponse response = pair_response(terms.spring_law, pair, length);
+    double lateral = response.force / length;
+    if (lateral < 0) {
+        lateral *= 1 - damping;
+    }
+    const Vector3d u = difference / length;
+    const Matrix3d block = (response.stiffness - lateral) * u * u.transpose() + lateral * Matrix3d::Identity();
+    add_block(hessian, blocks[0], block);
+    add_block(hessian, blocks[1], block);
+    add_block(hessian, blocks[2], -block);
+}
+
+void add_hinge(const EmbeddingTerms& terms, const HingeVertices& hinge, const std::array<int, 10>& blocks,
+               const VectorXd& x, double damping, BlockMatrix& hessian)
+{
+    const HingePoints points = hinge_points(x, hinge);
+    const HingeResponse response = hinge_response(terms.hinge_law, hinge_angle(points));
+    if (!is_active(response)) {
+        return;
+    }
+    const HingeAngle angle = hinge_angle_derivatives(points);
+    const double curvature = (1 - damping) * response.moment;
+    for (int k = 0, n = 0; k < 4; ++k) {
+        for (int l = 0; l <= k; ++l, ++n) {
+            const Matrix3d block =
+                response.stiffness * angle.gradient.segment<3>(3 * k) * angle.gradient.segment<3>(3 * l).transpose() +
+                curvature * angle.hessian.block<3, 3>(3 * k, 3 * l);
+            add_block(hessian, blocks[n], hinge[k] >= hinge[l] ? block : Matrix3d(block.transpose()));
+        }
+    }
+}
+
+} // namespace
+
+EnergyParts embedding_energy(const EmbeddingTerms& terms, const VectorXd& x)
+{
+    VectorXd unused;
+    return embedding_gradient(terms, x, unused);
+}
+
+EnergyParts embedding_gradient(const EmbeddingTerms& terms, const VectorXd& x, VectorXd& gradient)
+{
+    gradient.setZero(x.size());
+    EnergyParts parts;
+    for (const SpringPair& pair : terms.springs) {
+        const Vector3d difference = point(x, pair.b) - point(x, pair.a);
+        const double length = difference.norm();
+        const SpringResponse response = pair_response(terms.spring_law, pair, length);
+        const Vector3d pull = response.force / std::max(length, smallest_length) * difference;
+        gradient.segment<3>(3 * pair.a) -= pull;
+        gradient.segment<3>(3 * pair.b) += pull;
+        parts.spring += response.energy;
+        parts.guard += response.barrier;
+    }
+    for (const HingeVertices& hinge : terms.hinges) {
+        const HingePoints points = hinge_points(x, hinge);
+        const HingeResponse response = hinge_response(terms.hinge_law, hinge_angle(points));
+        if (is_active(response)) {
+            const HingeAngle angle = hinge_angle_derivatives(points);
+            for (int k = 0; k < 4; ++k) {
+                gradient.segment<3>(3 * hinge[k]) += response.moment * angle.gradient.segment<3>(3 * k);
+            }
+        }
+        parts.concavity += response.energy;
+        parts.guard += response.ridge;
+    }
+    return parts;
+}
+
+BlockMatrix hessian_matrix(const EmbeddingTerms& terms, HessianPattern& pattern)
+{
+    std::vector<std::pair<int, int>> pairs;
+    for (const SpringPair& pair : terms.springs) {
+        pairs.emplace_back(pair.a, pair.b);
+    }
+    for (const HingeVertices& hinge : terms.hinges) {
+        for (int k = 0; k < 4; ++k) {
+            for (int l = 0; l < k; ++l) {
+                pairs.emplace_back(hinge[k], hinge[l]);
+            }
+        }
+    }
+    BlockMatrix matrix = make_block_matrix(terms.vertex_count, std::move(pairs));
+    pattern = {};
+    for (const SpringPair& pair : terms.springs) {
+        pattern.spring_blocks.push_back({block_index(matrix, pair.a, pair.a), block_index(matrix, pair.b, pair.b),
+                                         block_index(matrix, pair.a, pair.b)});
+    }
+    for (const HingeVertices& hinge : terms.hinges) {
+        std::array<int, 10>& blocks = pattern.hinge_blocks.emplace_back();
+        for (int k = 0, n = 0; k < 4; ++k) {
+            for (int l = 0; l <= k; ++l, ++n) {
+                blocks[n] = block_index(matrix, hinge[k], hinge[l]);
+            }
+        }
+    }
+    return matrix;
+}
+
+void embedding_hessian(const EmbeddingTerms& terms, const HessianPattern& pattern, const VectorXd& x, double damping,
+                       BlockMatrix& hessian)
+{
+    std::fill(hessian.value.begin(), hessian.value.end(), 0.0);
+    for (std::size_t k = 0; k < terms.springs.size(); ++k) {
+        add_spring(terms, terms.springs[k], pattern.spring_blocks[k], x, damping, hessian);
+    }
+    for (std::size_t k = 0; k < terms.hinges.size(); ++k) {
+        add_hinge(terms, terms.hinges[k], pattern.hinge_blocks[k], x, damping, hessian);
+    }
+}
+
+} // namespace rhombloom

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "core/form/block_matrix.h"
+#include "core/form/embedding_terms.h"
+
+namespace rhombloom {
+
+//! \brief The energy in units of la, by cause.
+struct EnergyParts
+{
+    double spring = 0;
+    double concavity = 0;
+    double guard = 0; //!< barrier and ridge, zero on valid shapes
+
+    double total() const { return spring + concavity + guard; }
+};
+
+//! \brief Energy of the positions \p x (three coordinates per vertex, in units of la).
+EnergyParts embedding_energy(const EmbeddingTerms& terms, const Eigen::VectorXd& x);
+
+//! \brief The same, and the gradient by \p x.
+EnergyParts embedding_gradient(const EmbeddingTerms& terms, const Eigen::VectorXd& x, Eigen::VectorXd& gradient);
+
+//! \brief Where the terms' blocks lie in the matrix.
+struct HessianPattern
+{
+    std::vector<std::array<int, 3>> spring_blocks; //!< (a, a), (b, b), (a, b)
+    std::vector<std::array<int, 10>> hinge_blocks; //!< (k, l) for k = 0..3, l = 0..k
+};
+
+BlockMatrix hessian_matrix(const EmbeddingTerms& terms, HessianPattern& pattern);
+
+//! \brief The Hessian with the share \p damping (0: exact, 1: positive semidefinite) of its indefinite part removed.
+//! \details That part is the lateral stiffness of compressed springs and the curvature of the hinge angles. Elements in
+//! equilibrium are prestressed, so it carries the bending stiffness and must not be clamped for good.
+void embedding_hessian(const EmbeddingTerms& terms, const HessianPattern& pattern, const Eigen::VectorXd& x,
+                       double damping, BlockMatrix& hessian);
+
+} // namespace rhombloom
