@@ -54,14 +54,15 @@ Points densified(const Points& polygon, double step)
     return dense;
 }
 
-//! Turn of the polygon at vertex i, radians; corners count as none, they were not sampled from a curve.
+//! Turn of the polygon at vertex i, radians, if it was sampled from a curve there (equal chords, no corner), else 0.
 double sampled_turn(const Points& polygon, std::size_t i)
 {
     const std::size_t n = polygon.size();
     const Vec2 a = polygon[i] - polygon[(i + n - 1) % n];
     const Vec2 b = polygon[(i + 1) % n] - polygon[i];
     const double turn = std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
-    return turn < radians(9) ? turn : 0;
+    const bool sampled = std::abs(a.norm() - b.norm()) < 0.1 * a.norm() && turn < radians(16);
+    return sampled ? turn : 0;
 }
 
 //! Distance to the nearest chord, less the sagitta of the arc which that chord was sampled from.
@@ -98,6 +99,7 @@ Reference load_reference()
             reference.outline.push_back(point);
         }
     }
+    reference.outline.pop_back(); // repeats the first
     const auto& p = json["params"];
     Element element;
     element.alpha = p["alpha"];

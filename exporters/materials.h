@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/expected.h"
+
+namespace rhombloom {
+
+//! \brief What rhombloom knows about a sheet: one entry of templates/materials.json.
+struct Material
+{
+    std::string name;           //!< e.g. "pp-0.5", for --material
+    std::string title;          //!< e.g. "Polypropylene 0.5 mm"
+    double thickness = 0;       //!< mm
+    double density = 0;         //!< g/cm3
+    double strain_limit = 0;    //!< largest bending strain that leaves no mark, 0.03 = 3 %
+    double max_temperature = 0; //!< degrees Celsius that a lamp may heat it to for years
+    std::string heat;           //!< what to mind near a bulb, one sentence
+    std::string laser;          //!< how it cuts, one sentence; empty: do not laser
+    std::string knife;          //!< one sentence; empty: no knife cuts it
+    bool mirrored_parts = true; //!< both faces alike, so that parts may be turned over on the sheet
+};
+
+//! \brief All presets, in the file's order. Refuses a missing or malformed file with its path.
+Expected<std::vector<Material>> materials();
+
+//! \brief The preset called \p name; the refusal lists the names there are.
+Expected<Material> material(const std::string& name);
+
+//! \brief Mass of a piece of \p area mm2, grams.
+double mass(const Material& material, double area);
+
+} // namespace rhombloom
