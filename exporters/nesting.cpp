@@ -1,0 +1,194 @@
+// This work is based on Yu. Stoyan and A. Pankratov, "Regular packing of congruent polygons on the rectangular
+// sheet", European Journal of Operational Research 113 (1999).
+#include "exporters/nesting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/text.h"
+#include "core/units.h"
+#include "exporters/nesting_layout.h"
+
+namespace rhombloom {
+
+namespace {
+
+using namespace nesting;
+
+//! Repeated points dropped, counter-clockwise.
+Polygon cleaned(const std::vector<Vec2>& outline)
+{
+    Polygon polygon;
+    for (const Vec2& p : outline) {
+        if (polygon.empty() || p != polygon.back()) {
+            polygon.push_back(p);
+        }
+    }
+    while (polygon.size() > 1 && polygon.back() == polygon.front()) {
+        polygon.pop_back();
+    }
+    if (polygon.size() >= 3 && signed_area(polygon) < 0) {
+        std::reverse(polygon.begin(), polygon.end());
+    }
+    return polygon;
+}
+
+std::string size_text(double width, double height)
+{
+    return to_fixed(width, 3) + " x " + to_fixed(height, 3) + " mm";
+}
+
+Expected<void> check_length(const char* name, double value, double min, double max)
+{
+    if (!(value >= min && value <= max)) {
+        return refuse(std::string(name) + " is " + to_text(value) + " mm; it must be between " + to_text(min) +
+                      " and " + to_text(max) + " mm");
+    }
+    return {};
+}
+
+Expected<void> check_sheet(const char* name, double width, double height, double margin)
+{
+    for (const double size : {width, height}) {
+        if (auto ok = check_length(name, size, 1, 1e5); !ok) {
+            return ok;
+        }
+        if (2 * margin >= size) {
+            return refuse(std::string("the margin of ") + to_text(margin) + " mm leaves nothing of a " + name + " of " +
+                          size_text(width, height));
+        }
+    }
+    return {};
+}
+
+Expected<void> check_options(const NestOptions& options)
+{
+    if (options.count < 1 || options.count > 100000) {
+        return refuse("the count is " + std::to_string(options.count) + "; it must be between 1 and 100000");
+    }
+    if (auto ok = check_length("the spacing", options.spacing, 0, 1000); !ok) {
+        return ok;
+    }
+    if (auto ok = check_length("the margin", options.margin, 0, 1e4); !ok) {
+        return ok;
+    }
+    if (options.remnant) {
+        if (auto ok = check_sheet("remnant", options.remnant->x(), options.remnant->y(), options.margin); !ok) {
+            return ok;
+        }
+    }
+    return check_sheet("sheet", options.sheet_width, options.sheet_height, options.margin);
+}
+
+Box bounds_of(const std::vector<Placement>& placements, const Polygon& hull)
+{
+    Box used;
+    for (const Placement& placement : placements) {
+        const Box box = extents(hull, {placement.angle, placement.mirrored});
+        used.min = used.min.cwiseMin(box.min + placement.offset);
+        used.max = used.max.cwiseMax(box.max + placement.offset);
+    }
+    return used;
+}
+
+double area(const Box& box)
+{
+    const Vec2 size = (box.max - box.min).cwiseMax(0.0);
+    return size.x() * size.y();
+}
+
+//! The larger of the strips above and to the right of the copies.
+Box offcut_of(const Sheet& sheet, double spacing)
+{
+    const Vec2 size(sheet.width, sheet.height);
+    const Box above{Vec2(0, sheet.used.max.y() + spacing), size};
+    const Box beside{Vec2(sheet.used.max.x() + spacing, 0), size};
+    const Box larger = area(above) >= area(beside) ? above : beside;
+    return area(larger) > 0 ? larger : Box{size, size};
+}
+
+Sheet sheet_of(std::vector<Placement> placements, double width, double height, const Polygon& hull,
+               const NestOptions& options)
+{
+    Sheet sheet{width, height, false, std::move(placements), {}, {}};
+    for (Placement& placement : sheet.placements) {
+        placement.offset += Vec2::Constant(options.margin);
+    }
+    sheet.used = bounds_of(sheet.placements, hull);
+    sheet.offcut = offcut_of(sheet, options.spacing);
+    return sheet;
+}
+
+double utilisation_of(const std::vector<Sheet>& sheets, double piece_area)
+{
+    double pieces = 0, spent = 0;
+    for (const Sheet& sheet : sheets) {
+        pieces += piece_area * static_cast<double>(sheet.placements.size());
+        spent += sheet.width * sheet.height - (&sheet == &sheets.back() ? area(sheet.offcut) : 0);
+    }
+    return pieces / spent;
+}
+
+Room room_of(double width, double height, double margin)
+{
+    return {width - 2 * margin, height - 2 * margin};
+}
+
+Expected<void> check_fits(const Piece& piece, const NestOptions& options)
+{
+    const Room room = room_of(options.sheet_width, options.sheet_height, options.margin);
+    if (fits(piece, room)) {
+        return {};
+    }
+    const Box box = box_of(piece.hull);
+    const Vec2 size = box.max - box.min;
+    return refuse("the outline is " + size_text(size.x(), size.y()) +
+                  " as drawn and fits in no allowed direction on a sheet of " +
+                  size_text(options.sheet_width, options.sheet_height) + " with a margin of " +
+                  to_text(options.margin) + " mm; take a larger sheet, a smaller margin or a smaller outline");
+}
+
+} // namespace
+
+Vec2 placed(const Vec2& p, const Placement& placement)
+{
+    return turn(placement.angle) * (placement.mirrored ? Vec2(-p.x(), p.y()) : p) + placement.offset;
+}
+
+Expected<Nesting> nest(const std::vector<Vec2>& outline, const NestOptions& options)
+{
+    const Polygon polygon = cleaned(outline);
+    if (auto ok = check_simple(polygon); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    if (auto ok = check_options(options); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    const Piece piece = piece_of(polygon, options);
+    if (auto ok = check_fits(piece, options); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    Nesting nesting;
+    int left = options.count;
+    if (options.remnant) {
+        const Room room = room_of(options.remnant->x(), options.remnant->y(), options.margin);
+        std::vector<Placement> some = fits(piece, room) ? densest_layout(piece, room, left) : std::vector<Placement>{};
+        left -= static_cast<int>(some.size());
+        nesting.sheets.push_back(
+            sheet_of(std::move(some), options.remnant->x(), options.remnant->y(), piece.hull, options));
+        nesting.sheets.back().remnant = true;
+    }
+    const Room room = room_of(options.sheet_width, options.sheet_height, options.margin);
+    const std::vector<Placement> full = densest_layout(piece, room, options.count);
+    nesting.per_sheet = static_cast<int>(full.size());
+    for (; left > 0; left -= nesting.per_sheet) {
+        std::vector<Placement> some = left >= nesting.per_sheet ? full : packed_layout(piece, room, full, left);
+        nesting.sheets.push_back(
+            sheet_of(std::move(some), options.sheet_width, options.sheet_height, piece.hull, options));
+    }
+    nesting.utilisation = utilisation_of(nesting.sheets, signed_area(polygon));
+    return nesting;
+}
+
+} // namespace rhombloom
