@@ -7,22 +7,57 @@ namespace rhombloom::nesting {
 
 namespace {
 
+//! Points of one edge that corners and even steps miss: nearest to the origin, and where \p directions meet it.
+void add_special_points(const Vec2& a, const Vec2& b, const Polygon& directions, Polygon& points)
+{
+    const Vec2 ab = b - a;
+    const double foot = -a.dot(ab) / ab.squaredNorm();
+    if (foot > 0 && foot < 1) {
+        points.push_back(a + foot * ab);
+    }
+    for (const Vec2& d : directions) {
+        const double t = cross(d, a) / cross(ab, d);
+        const Vec2 p = a + t * ab;
+        if (t > 0 && t < 1 && p.dot(d) > 0) {
+            points.push_back(p);
+        }
+    }
+}
+
+//! Directions of the axes and of the longest edges, both ways: straight rows run along them.
+Polygon row_directions(const NoFit& region)
+{
+    Polygon edges;
+    for (const Polygon& contour : region.contours) {
+        for (std::size_t i = 0; i < contour.size(); ++i) {
+            edges.push_back(contour[(i + 1) % contour.size()] - contour[i]);
+        }
+    }
+    std::stable_sort(edges.begin(), edges.end(),
+                     [](const Vec2& a, const Vec2& b) { return a.squaredNorm() > b.squaredNorm(); });
+    edges.resize(std::min<std::size_t>(edges.size(), 12));
+    for (const Vec2& axis : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1)}) {
+        edges.push_back(axis);
+    }
+    return edges;
+}
+
 //! Points on the boundary of \p region with y > 0 (or y = 0, x > 0): corners and steps of at most \p step.
 Polygon half_boundary(const NoFit& region, double step)
 {
     Polygon points;
+    const Polygon directions = row_directions(region);
     for (const Polygon& contour : region.contours) {
         for (std::size_t i = 0; i < contour.size(); ++i) {
             const Vec2 &a = contour[i], &b = contour[(i + 1) % contour.size()];
+            add_special_points(a, b, directions, points);
             const int parts = std::max(1, static_cast<int>(std::ceil((b - a).norm() / step)));
             for (int k = 0; k < parts; ++k) {
-                const Vec2 p = a + (b - a) * (static_cast<double>(k) / parts);
-                if (p.y() > 0 || (p.y() == 0 && p.x() > 0)) {
-                    points.push_back(p);
-                }
+                points.push_back(a + (b - a) * (static_cast<double>(k) / parts));
             }
         }
     }
+    std::erase_if(points, [](const Vec2& p) { return p.y() < 0 || (p.y() == 0 && p.x() < 0); });
     return points;
 }
 

@@ -11,8 +11,9 @@ namespace {
 std::vector<Vec2> outline_in(const std::string& name)
 {
     std::ifstream file(std::string(RHOMBLOOM_SOURCE_DIR "/tests/data/") + name);
+    const auto json = nlohmann::json::parse(file);
     std::vector<Vec2> outline;
-    for (const auto& p : nlohmann::json::parse(file).at("outline")) {
+    for (const auto& p : json.at("outline")) {
         outline.emplace_back(p.at(0).get<double>(), p.at(1).get<double>());
     }
     return outline;
