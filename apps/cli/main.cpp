@@ -1,4 +1,69 @@
-int main()
+#include <cstdio>
+#include <exception>
+
+#include "apps/cli/commands.h"
+
+namespace {
+
+using namespace rhombloom;
+
+enum ExitCode { success = 0, input_at_fault = 1, wrong_usage = 2, our_fault = 3 };
+
+//! One line, whatever a file name or a key in a file may contain.
+std::string one_line(std::string text)
 {
-    return 0;
+    for (char& c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        c = code < 0x20 || code == 0x7f ? '?' : c;
+    }
+    return text;
+}
+
+int complain(const std::string& message, int exit_code)
+{
+    std::fprintf(stderr, "rhombloom: %s\n", one_line(message).c_str());
+    return exit_code;
+}
+
+int run_program(int argc, char** argv)
+{
+    CLI::App app("Designs surfaces from copies of one interlocking element and makes everything needed to build them.",
+                 "rhombloom");
+    app.set_version_flag("--version", "rhombloom " RHOMBLOOM_VERSION);
+    app.require_subcommand(1);
+    app.footer("Example: rhombloom fabricate examples/ball-30.json -o kit\n"
+               "`rhombloom COMMAND --help` tells more about each command.");
+    cli::Run run;
+    for (const auto add : {cli::add_fabricate, cli::add_check, cli::add_embed, cli::add_shapes, cli::add_plan}) {
+        add(app, run);
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+            return app.exit(error); // --help and --version
+        }
+        return complain(std::string(error.what()) + " (see rhombloom --help)", wrong_usage);
+    }
+    const auto result = run();
+    if (result) {
+        return *result;
+    }
+    return complain(result.error().message,
+                    result.error().kind == Error::Kind::Input ? input_at_fault : our_fault);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    try {
+        return run_program(argc, argv);
+    } catch (const std::bad_alloc&) {
+        return complain("out of memory: try a smaller design", our_fault);
+    } catch (const std::exception& error) {
+        return complain(std::string("a bug stopped the program (") + error.what() +
+                            "); please report it with the design file",
+                        our_fault);
+    }
 }

@@ -1,0 +1,67 @@
+#include "apps/cli/console.h"
+
+#include <cstdio>
+
+#include <unistd.h>
+
+#include "core/design/design_file.h"
+#include "exporters/save.h"
+
+namespace rhombloom::cli {
+
+Progress::Progress() : terminal_(::isatty(STDERR_FILENO) == 1), start_(std::chrono::steady_clock::now()) {}
+
+Progress::~Progress()
+{
+    if (shown_) {
+        std::fputs("\r\x1b[K", stderr);
+    }
+}
+
+void Progress::show(const std::string& what)
+{
+    constexpr auto patience = std::chrono::milliseconds(400);
+    if (terminal_ && std::chrono::steady_clock::now() - start_ > patience) {
+        std::fprintf(stderr, "\r\x1b[K%s ...", what.c_str());
+        std::fflush(stderr);
+        shown_ = true;
+    }
+}
+
+Expected<Design> load_design(const std::string& path)
+{
+    constexpr std::size_t max_bytes = 64'000'000;
+    const auto bytes = load_file(path, max_bytes);
+    if (!bytes) {
+        return tl::make_unexpected(bytes.error());
+    }
+    auto design = parse_design(*bytes);
+    if (!design) {
+        return refuse(path + ": " + design.error().message);
+    }
+    return design;
+}
+
+Expected<Replay> replay_design(const std::string& path, const Design& design, Progress& progress)
+{
+    ReplayOptions options;
+    options.progress = [&](int number, int count, const std::string& what) {
+        progress.show("operation " + std::to_string(number + 1) + " of " + std::to_string(count) + ": " + what);
+        return true;
+    };
+    auto result = replay(design, options);
+    if (!result) {
+        return tl::make_unexpected(Error{path + ": " + result.error().message, result.error().kind});
+    }
+    return result;
+}
+
+Expected<void> print(const std::string& text)
+{
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+        return machine_failure("cannot write to the standard output: is the disk full?");
+    }
+    return {};
+}
+
+} // namespace rhombloom::cli

@@ -1,0 +1,54 @@
+"""The arrows of the house: core <- exporters <- apps, and inside core model <- form, model <- design -> form,
+building -> design. No Cairo, FreeType, tinygltf, Draco or qpdf type in a header outside its own exporter; core knows
+no file format but the design file."""
+import pathlib
+import re
+import sys
+
+root = pathlib.Path(sys.argv[1])
+
+# folder -> folders it may include from
+ALLOWED = {
+    "core/model": {"core", "core/model"},
+    "core/form": {"core", "core/model", "core/form"},
+    "core/design": {"core", "core/model", "core/form", "core/design"},
+    "core/building": {"core", "core/model", "core/form", "core/design", "core/building"},
+    "core": {"core"},
+    "exporters": {"core", "core/model", "core/form", "core/design", "core/building", "exporters"},
+    "apps/cli": {"core", "core/model", "core/form", "core/design", "core/building", "exporters", "apps/cli",
+                 "apps/studio"},
+    "apps/studio": {"core", "core/model", "core/form", "core/design", "core/building", "exporters", "apps/studio"},
+}
+FOREIGN = re.compile(r"^(cairo|ft2build|freetype|draco/|tiny_gltf|qpdf/|polyclipping|httplib|CLI/)", re.I)
+FOREIGN_IN_CORE = re.compile(r"^(cairo|ft2build|freetype|draco/|tiny_gltf|qpdf/|httplib|CLI/)", re.I)
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+problems = []
+checked = 0
+for path in sorted(root.rglob("*")):
+    relative = path.relative_to(root)
+    if path.suffix not in {".h", ".cpp"} or relative.parts[0] not in {"core", "exporters", "apps"}:
+        continue
+    folder = relative.parent.as_posix()
+    while folder not in ALLOWED and "/" in folder:
+        folder = folder.rsplit("/", 1)[0]
+    checked += 1
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        match = INCLUDE.match(line)
+        if not match:
+            continue
+        kind, name = match.groups()
+        place = f"{relative}:{number}"
+        if kind == '"':
+            target = name.rsplit("/", 1)[0] if "/" in name else ""
+            while target not in ALLOWED and "/" in target:
+                target = target.rsplit("/", 1)[0]
+            if target not in ALLOWED[folder]:
+                problems.append(f"{place}: {folder} may not include {name}")
+        elif folder.startswith("core") and FOREIGN_IN_CORE.match(name):
+            problems.append(f"{place}: core knows no {name}")
+        elif path.suffix == ".h" and folder == "exporters" and FOREIGN.match(name):
+            problems.append(f"{place}: {name} must stay out of headers")
+
+print("\n".join(problems) or f"{checked} files keep the arrows")
+sys.exit(1 if problems or checked == 0 else 0)
