@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "apps/cli/commands.h"
 
@@ -25,6 +26,15 @@ int complain(const std::string& message, int exit_code)
     return exit_code;
 }
 
+std::string command_names(const CLI::App& app)
+{
+    std::string names;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        names += (names.empty() ? "" : ", ") + command->get_name();
+    }
+    return names;
+}
+
 int run_program(int argc, char** argv)
 {
     CLI::App app("Designs surfaces from copies of one interlocking element and makes everything needed to build them.",
@@ -34,8 +44,11 @@ int run_program(int argc, char** argv)
     app.footer("Example: rhombloom fabricate examples/ball-30.json -o kit\n"
                "`rhombloom COMMAND --help` tells more about each command.");
     cli::Run run;
-    for (const auto add : {cli::add_fabricate, cli::add_check, cli::add_embed, cli::add_shapes, cli::add_plan}) {
+    for (const auto add : {cli::add_embed, cli::add_shapes}) {
         add(app, run);
+    }
+    if (argc > 1 && argv[1][0] != '-' && app.get_subcommand_no_throw(argv[1]) == nullptr) {
+        return complain("unknown command \"" + std::string(argv[1]) + "\": expected " + command_names(app), wrong_usage);
     }
     try {
         app.parse(argc, argv);

@@ -28,7 +28,9 @@ struct Row
 
 Row describe(const BaseShape& shape, const Element& element)
 {
-    Row row{shape.name, shape.summary};
+    Row row;
+    row.name = shape.name;
+    row.summary = shape.summary;
     row.elements = static_cast<int>(shape.surface.n_faces());
     row.layers = static_cast<int>(layers(shape.surface, shape.seed).size());
     row.closed = validate(shape.surface, element).boundary_loops == 0;
