@@ -19,11 +19,14 @@ struct Material
     std::string heat;           //!< what to mind near a bulb, one sentence
     std::string laser;          //!< how it cuts, one sentence; empty: do not laser
     std::string knife;          //!< one sentence; empty: no knife cuts it
-    bool mirrored_parts = true; //!< both faces alike, so that parts may be turned over on the sheet
+    bool sides_alike = true;    //!< so that mirrored parts may be laid on the sheet
 };
 
 //! \brief All presets, in the file's order. Refuses a missing or malformed file with its path.
 Expected<std::vector<Material>> materials();
+
+//! \brief The presets of another file of the same form.
+Expected<std::vector<Material>> materials(const std::string& path);
 
 //! \brief The preset called \p name; the refusal lists the names there are.
 Expected<Material> material(const std::string& name);

@@ -287,26 +287,6 @@ Path closed_forms(const HookParameters& p)
 
 } // namespace
 
-HookParameters hook_parameters(const Element& element)
-{
-    HookParameters p;
-    p.la = element.la;
-    p.lb = element.lb;
-    p.alpha = element.alpha;
-    p.thickness = element.thickness;
-    p.slit = p.thickness + 0.3;
-    p.finger_width = std::max(3.0, 0.055 * p.la);
-    p.hole_radius = 1.2 * p.finger_width;
-    p.finger_length = 1.6 * p.finger_width;
-    p.lip = p.slit / 2 + 0.75 * p.finger_width;
-    p.neck_setback = p.slit / 2;
-    p.seat_clearance = 0.05;
-    p.barb = 0.12 * p.finger_width;
-    p.lip_rounding = 0.35 * p.finger_width;
-    p.scoop_depth = 0.10 * p.la;
-    return p;
-}
-
 double pivot_radius(const HookParameters& parameters)
 {
     return parameters.hole_radius + parameters.finger_width;

@@ -24,7 +24,7 @@ struct HookParameters
     double relief = 0;         //!< radius in the corner between neck and shoulder; 0: sharp, as in the reference
 };
 
-//! \brief The default proportions for an element: one rule each, none depends on the material.
+//! \brief The default proportions for an element: the rules of the parameter table (parameter_table.h).
 HookParameters hook_parameters(const Element& element);
 
 //! \brief Rp = ri + w, from a node to the slit's bottom: la and lb each lose it at both ends when hooked.

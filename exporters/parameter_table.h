@@ -27,13 +27,13 @@ struct ParameterRule
 //! \brief One row of the table of parameters. Values in the row's own unit (mm or degrees).
 struct Parameter
 {
-    std::string name;    //!< as in OpenSCAD and in files, e.g. "finger_width"; the option is --finger-width
-    std::string symbol;  //!< in formulas, e.g. "w"
-    std::string section; //!< "Element", "Hook", "Cut"
-    std::string unit;    //!< "mm" or "deg"
-    ParameterRule rule;  //!< the default
+    std::string name;        //!< as in OpenSCAD and in files, e.g. "finger_width"; the option is --finger-width
+    std::string symbol;      //!< in formulas, e.g. "w"
+    std::string section;     //!< "Element", "Hook", "Cut"
+    std::string unit;        //!< "mm" or "deg"
+    ParameterRule rule = {}; //!< the default
     double min = 0, max = 0, step = 0;
-    std::string help; //!< one line
+    std::string help = {}; //!< one line
     double (*get)(const PieceParameters&) = nullptr;
     void (*set)(PieceParameters&, double) = nullptr;
 };
