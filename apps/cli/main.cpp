@@ -26,6 +26,12 @@ int complain(const std::string& message, int exit_code)
     return exit_code;
 }
 
+bool has_command(const CLI::App& app, const std::string& name)
+{
+    const auto commands = app.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; });
+    return !commands.empty();
+}
+
 std::string command_names(const CLI::App& app)
 {
     std::string names;
@@ -47,7 +53,7 @@ int run_program(int argc, char** argv)
     for (const auto add : {cli::add_embed, cli::add_shapes}) {
         add(app, run);
     }
-    if (argc > 1 && argv[1][0] != '-' && app.get_subcommand_no_throw(argv[1]) == nullptr) {
+    if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
         return complain("unknown command \"" + std::string(argv[1]) + "\": expected " + command_names(app), wrong_usage);
     }
     try {

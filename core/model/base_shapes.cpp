@@ -107,12 +107,13 @@ Expected<SurfaceLists> open_tube(const Request& request)
     return tube(request.first, request.second);
 }
 
-Expected<SurfaceLists> ring(const Request& request, const Element& element)
+Expected<SurfaceLists> ring(const Request& request)
 {
-    if (request.second < 4 || request.second % 2 == 1 || request.first < request.second) {
-        return impossible(request, "a torus NxM has an even number M >= 4 of rows and at least as many elements N round");
+    const bool rows_fit = request.second >= 6 && request.second % 4 == 2;
+    if (!rows_fit || request.first < request.second || request.first > 4 * request.second) {
+        return impossible(request, "a torus NxM has M = 6, 10, 14, ... rows and N = M to 4 M elements round the ring");
     }
-    return torus(request.first, request.second, element);
+    return torus(request.first, request.second);
 }
 
 Expected<SurfaceLists> patch(const Request& request)
@@ -139,7 +140,8 @@ const Family families[] = {
     {"polar", true, "polar stack: elements round the poles x rows", polar},
     {"checker", false, "rhombic solid divided k x k, checkerboard flips", checker},
     {"tube", true, "open tube: elements round x rows", [](const Request& r, const Element&) { return open_tube(r); }},
-    {"torus", true, "torus: elements round the ring x rows round the tube", ring},
+    {"torus", true, "torus: elements round the ring x rows round the tube",
+     [](const Request& r, const Element&) { return ring(r); }},
     {"dome", true, "open dome: elements round the top x rows", open_dome},
     {"sheet", true, "flat patch: columns x rows", [](const Request& r, const Element&) { return patch(r); }},
 };
@@ -201,7 +203,7 @@ std::vector<std::string> base_shape_names()
             "ball-210",   "ball-270",    "rhombic-6",   "rhombic-12",  "rhombic-20", "rhombic-30", "polar-3x3",
             "polar-3x4",  "polar-4x3",   "polar-5x3",   "polar-4x4",   "polar-5x4",  "polar-3x7",  "polar-4x6",
             "polar-5x6",  "polar-5x8",   "polar-6x6",   "checker-24",  "checker-48", "checker-54", "checker-108",
-            "checker-120", "checker-270", "tube-4x4",   "tube-6x6",    "tube-8x10",  "torus-12x6", "torus-18x8",
+            "checker-120", "checker-270", "tube-4x4",   "tube-6x6",    "tube-8x10",  "torus-12x6", "torus-16x6",
             "dome-3x2",   "dome-5x3",    "dome-6x4",    "sheet-1x1",   "sheet-2x1",  "sheet-4x4"};
 }
 

@@ -140,7 +140,7 @@ SurfaceLists join(const Triangulation& triangulation)
     for (const auto& t : triangulation.triangles) {
         const int centre = static_cast<int>(lists.positions.size());
         lists.positions.push_back(
-            (triangulation.points[t[0]] + triangulation.points[t[1]] + triangulation.points[t[2]]).normalized());
+            (triangulation.points[t[0]] + triangulation.points[t[1]] + triangulation.points[t[2]]) / 3);
         lists.sides.push_back(Side::Short);
         for (int k = 0; k < 3; ++k) {
             centre_left[{t[k], t[(k + 1) % 3]}] = centre;
@@ -233,9 +233,9 @@ SurfaceLists tube(int n, int rows)
     return lists;
 }
 
-SurfaceLists torus(int n, int rows, const Element& element)
+SurfaceLists torus(int n, int rows)
 {
-    expects(n >= 3 && rows >= 4 && rows % 2 == 0, "torus: n >= 3, rows >= 4 and even");
+    expects(n >= 3 && rows >= 6 && rows % 4 == 2, "torus: n >= 3, rows = 6, 10, 14, ...");
     SurfaceLists lists;
     // Once round the tube, the levels have turned by rows / 2 steps.
     const auto vertex = [&](int level, int i) {
@@ -245,21 +245,23 @@ SurfaceLists torus(int n, int rows, const Element& element)
     const double ring = n * column_width / two_pi;
     const double tube_radius = rows * level_height / two_pi;
     std::vector<int> level_of;
-    std::vector<double> target;
     for (int level = 0; level < rows; ++level) {
         const double angle = two_pi * level / rows;
         for (int i = 0; i < n; ++i) {
             lists.positions.push_back(on_circle(ring + tube_radius * std::cos(angle), (i + 0.5 * level) / n,
                                                 -tube_radius * std::sin(angle)));
             level_of.push_back(level);
-            // The curvature of a round torus over one vertex's share of it.
-            target.push_back(two_pi / n * (std::sin(angle + pi / rows) - std::sin(angle - pi / rows)));
         }
     }
     lists.quads = staggered_rows(n, rows, vertex);
     lists.sides = sides_by_level(level_of);
     fill_tags(lists, Facing::Front);
-    choose_row_facings(lists, n, rows, element, target);
+    // A row with its long diagonals round the ring is wider than one with them round the tube: outside the wide rows.
+    for (std::size_t f = 0; f < lists.quads.size(); ++f) {
+        const int row = static_cast<int>(f) / n + 1;
+        const bool outside = std::cos(two_pi * row / rows) > 0;
+        lists.facing[f] = outside == (row % 2 == 0) ? Facing::Front : Facing::Back;
+    }
     return lists;
 }
 
