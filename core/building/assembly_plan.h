@@ -4,7 +4,13 @@
 
 namespace rhombloom {
 
-enum class StepKind { Insert, Remove, Unhook, Hook };
+enum class StepKind
+{
+    Insert,
+    Remove,
+    Unhook,
+    Hook
+};
 
 //! \brief One connection made or undone: side \c side of the step's element and side \c to_side of element \c to.
 struct Join
@@ -35,9 +41,9 @@ struct Scorecard
 {
     int steps = 0;
     int inserts = 0;
-    int removals = 0;             //!< reopened elements
-    int parts_needed = 0;         //!< most elements present at once
-    long exposure = 0;            //!< sum over the steps of the open sides
+    int removals = 0;     //!< reopened elements
+    int parts_needed = 0; //!< most elements present at once
+    long exposure = 0;    //!< sum over the steps of the open sides
     int one_neighbour_inserts = 0;
     int four_at_once_inserts = 0;
     int negative_defect_inserts = 0; //!< inserts with >= 3 built neighbours at a vertex of negative defect
@@ -45,7 +51,11 @@ struct Scorecard
     double minutes = 0;              //!< estimated building time
 };
 
-enum class Order { Paper, Best };
+enum class Order
+{
+    Paper,
+    Best
+};
 
 struct AssemblyPlan
 {

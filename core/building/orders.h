@@ -1,0 +1,41 @@
+#pragma once
+
+#include "core/building/build_state.h"
+#include "core/building/scorecard.h"
+
+namespace rhombloom {
+
+//! \brief The paper's order: first modelled, first built; each component spirals through its layers; every closed
+//! shape is closed and reopened where the next component joins (Sec. 5).
+std::vector<Step> paper_order(const Replay& replay, const BuildHistory& history);
+
+//! \brief Elements of a target that are built in one go: of one component and connected.
+std::vector<std::vector<int>> batches(const BuildState& state, const BuildHistory& history, const Target& target);
+
+//! \brief The batch to build next: the first that touches what is there; the first of all when nothing does.
+std::size_t next_batch(const BuildState& state, const Target& target, const std::vector<std::vector<int>>& waiting);
+
+//! \brief The component whose chapter the change to \p target belongs to.
+int chapter_of(const BuildState& state, const BuildHistory& history, const Target& target);
+
+//! \brief What the builder likes; see best_order.
+struct Taste
+{
+    double view = 1;     //!< elements that the current view shows
+    double last = 0.3;   //!< elements beside the last one
+    double dangling = 1; //!< not hanging by one side only
+};
+
+//! \brief Greedy order: most built neighbours first, in the view that is held, beside the last element.
+//! \param closed by target: are its temporary elements built and removed again (else the shape stays open there)?
+std::vector<Step> greedy_order(const Replay& replay, const BuildHistory& history, const std::vector<char>& closed,
+                               const Taste& taste);
+
+//! \brief The best plan found: several tastes and choices of what to close, scored (see the source).
+AssemblyPlan best_plan(const Replay& replay, const Element& element, const BuildHistory& history);
+
+//! \brief A plan of these steps, with the temporary elements it uses renumbered without gaps, and its scorecard.
+AssemblyPlan finish_plan(const Replay& replay, const Element& element, const BuildHistory& history,
+                         std::vector<Step> steps, Order order);
+
+} // namespace rhombloom

@@ -1,0 +1,244 @@
+#include "core/building/scorecard.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/building/viewpoints.h"
+#include "core/model/angular_defect.h"
+
+namespace rhombloom {
+
+namespace {
+
+//! Replays the steps of a plan on nothing but their joins.
+struct Table
+{
+    std::vector<char> present;
+    std::vector<Ports> hooked;
+    int parts = 0;
+    int hooks = 0;
+
+    explicit Table(const AssemblyPlan& plan, std::size_t final_count)
+        : present(final_count + plan.temporary.size(), 0), hooked(present.size())
+    {
+    }
+
+    void apply(const Step& step)
+    {
+        const bool joining = step.kind == StepKind::Insert || step.kind == StepKind::Hook;
+        for (const Join& join : step.joins) {
+            hooked[step.element][join.side] = joining ? Port{join.to, join.to_side} : Port{};
+            hooked[join.to][join.to_side] = joining ? Port{step.element, join.side} : Port{};
+        }
+        hooks += (joining ? 1 : -1) * static_cast<int>(step.joins.size());
+        parts += step.kind == StepKind::Insert ? 1 : step.kind == StepKind::Remove ? -1 : 0;
+        if (step.kind == StepKind::Insert || step.kind == StepKind::Remove) {
+            present[step.element] = step.kind == StepKind::Insert;
+        }
+    }
+
+    int open_sides() const { return 4 * parts - 2 * hooks; }
+
+    int pieces() const
+    {
+        int count = 0;
+        std::vector<char> seen(present.size(), 0);
+        for (std::size_t first = 0; first < present.size(); ++first) {
+            if (!present[first] || seen[first]) {
+                continue;
+            }
+            ++count;
+            std::vector<int> open = {static_cast<int>(first)};
+            seen[first] = 1;
+            while (!open.empty()) {
+                const int e = open.back();
+                open.pop_back();
+                for (const Port& port : hooked[e]) {
+                    if (port.element >= 0 && !seen[port.element]) {
+                        seen[port.element] = 1;
+                        open.push_back(port.element);
+                    }
+                }
+            }
+        }
+        return count;
+    }
+};
+
+//! Minutes of a step. Anchored to the paper's pace, 0.78 to 1.26 minutes an element (Table 1), two joins on average.
+double minutes(const Step& step, bool hard)
+{
+    const auto joins = static_cast<double>(step.joins.size());
+    if (step.kind != StepKind::Insert) {
+        return 0.15 + 0.1 * joins;
+    }
+    return 0.35 + 0.25 * joins + (joins == 1 ? 0.1 : 0) + (joins == 4 ? 0.4 : 0) + (hard ? 0.2 : 0);
+}
+
+//! By stage: does a face touch a vertex of negative defect?
+class Hardness
+{
+public:
+    Hardness(const Replay& replay, const Element& element, const AssemblyPlan& plan)
+        : replay_(replay), element_(element), plan_(plan)
+    {
+    }
+
+    bool operator()(const Step& step)
+    {
+        if (step.stage != stage_) {
+            stage_ = step.stage;
+            face_ = faces_of_elements(replay_, plan_, stage_);
+        }
+        const Surface& surface = stage_surface(replay_, stage_);
+        if (face_[step.element] < 0) {
+            return false;
+        }
+        const Face f(face_[step.element]);
+        return std::any_of(surface.cfv_begin(f), surface.cfv_end(f), [&](Vertex v) {
+            return !surface.is_boundary(v) && angular_defect(surface, element_, v) < -1e-9;
+        });
+    }
+
+private:
+    const Replay& replay_;
+    const Element& element_;
+    const AssemblyPlan& plan_;
+    int stage_ = -1;
+    std::vector<int> face_;
+};
+
+void count_insert(const Step& step, bool hard, Scorecard& score)
+{
+    ++score.inserts;
+    score.one_neighbour_inserts += step.joins.size() == 1;
+    score.four_at_once_inserts += step.joins.size() == 4;
+    score.negative_defect_inserts += step.joins.size() >= 3 && hard;
+}
+
+} // namespace
+
+Scorecard scorecard(const Replay& replay, const Element& element, const AssemblyPlan& plan)
+{
+    Scorecard score;
+    Table table(plan, replay.surface.n_faces());
+    Hardness hardness(replay, element, plan);
+    for (const Step& step : plan.steps) {
+        const bool hard = hardness(step);
+        table.apply(step);
+        score.exposure += table.open_sides();
+        score.parts_needed = std::max(score.parts_needed, table.parts);
+        score.removals += step.kind == StepKind::Remove;
+        score.minutes += minutes(step, hard);
+        if (step.kind == StepKind::Insert) {
+            count_insert(step, hard, score);
+        }
+    }
+    score.steps = static_cast<int>(plan.steps.size());
+    score.view_turns = count_turns(held_views(replay, plan));
+    return score;
+}
+
+namespace {
+
+std::string at(std::size_t k)
+{
+    return "step " + std::to_string(k + 1) + ": ";
+}
+
+bool only_hard_elements(const Replay& replay, const Element& element, int stage)
+{
+    const Surface& surface = stage_surface(replay, stage);
+    for (const Face f : surface.faces()) {
+        const bool hard = std::any_of(surface.cfv_begin(f), surface.cfv_end(f), [&](Vertex v) {
+            return !surface.is_boundary(v) && angular_defect(surface, element, v) < -1e-9;
+        });
+        if (!hard) {
+            return false;
+        }
+    }
+    return true;
+}
+
+std::string insert_problem(const Step& step, const Table& table, bool hard, bool unavoidable)
+{
+    if (table.present[step.element]) {
+        return "H4: element " + std::to_string(step.element) + " is there already";
+    }
+    if (step.joins.empty() && table.parts > 0) {
+        return "H1: element " + std::to_string(step.element) + " touches nothing";
+    }
+    if (step.joins.size() == 4 && hard && !unavoidable) {
+        return "H6: element " + std::to_string(step.element) + " is plugged in at a vertex of negative defect";
+    }
+    return {};
+}
+
+bool consistent(const Step& step, const Table& table)
+{
+    const bool joining = step.kind == StepKind::Insert || step.kind == StepKind::Hook;
+    return std::all_of(step.joins.begin(), step.joins.end(), [&](const Join& join) {
+        const Port there = table.hooked[join.to][join.to_side];
+        return table.present[join.to] && there == (joining ? Port{} : Port{step.element, join.side});
+    });
+}
+
+std::string end_problem(const Replay& replay, const Table& table)
+{
+    const Surface& surface = replay.surface;
+    for (const Face f : surface.faces()) {
+        for (int k = 0; k < 4; ++k) {
+            const Halfedge back = surface.opposite_halfedge_handle(side_halfedge(surface, f, k));
+            const Port want =
+                surface.is_boundary(back) ? Port{} : Port{surface.face_handle(back).idx(), side_index(surface, back)};
+            if (!table.present[f.idx()] || !(table.hooked[f.idx()][k] == want)) {
+                return "H3/H7: side " + std::to_string(k) + " of element " + std::to_string(f.idx()) +
+                       " does not end as in the final surface";
+            }
+        }
+    }
+    const auto left = static_cast<int>(surface.n_faces());
+    return table.parts == left ? std::string() : "H3: temporary elements are left in the final surface";
+}
+
+} // namespace
+
+std::vector<std::string> plan_problems(const Replay& replay, const Element& element, const AssemblyPlan& plan)
+{
+    std::vector<std::string> problems;
+    Table table(plan, replay.surface.n_faces());
+    Hardness hardness(replay, element, plan);
+    std::set<std::pair<int, int>> chapters;
+    std::pair<int, int> chapter{-1, -1};
+    for (std::size_t k = 0; k < plan.steps.size(); ++k) {
+        const Step& step = plan.steps[k];
+        std::string problem;
+        if (step.kind == StepKind::Insert) {
+            const bool plug = step.joins.size() == 4 && hardness(step);
+            problem = insert_problem(step, table, plug, plug && only_hard_elements(replay, element, step.stage));
+            const std::pair<int, int> now{step.stage, step.component};
+            if (now != chapter && !chapters.insert(now).second) {
+                problem = "H5: component " + std::to_string(step.component) + " is taken up again";
+            }
+            chapter = now;
+        } else if (!table.present[step.element]) {
+            problem = "H4: element " + std::to_string(step.element) + " is not there";
+        }
+        if (!consistent(step, table)) {
+            problem = "the joins do not fit what is built";
+        }
+        table.apply(step);
+        if (problem.empty() && table.pieces() > 1) {
+            problem = "H2: the shape falls apart";
+        }
+        if (!problem.empty()) {
+            problems.push_back(at(k) + problem);
+        }
+    }
+    if (const std::string problem = end_problem(replay, table); !problem.empty()) {
+        problems.push_back(problem);
+    }
+    return problems;
+}
+
+} // namespace rhombloom
