@@ -22,6 +22,7 @@ struct Path
 {
     std::vector<PathVertex> vertices;
     bool closed = true;
+    std::string id = {}; //!< names the path in files that have names (SVG), e.g. "element-17"
 };
 
 struct Box

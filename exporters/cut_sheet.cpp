@@ -1,0 +1,236 @@
+#include "exporters/cut_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/text.h"
+#include "exporters/cut_drawing.h"
+#include "exporters/svg.h"
+
+namespace rhombloom {
+
+namespace {
+
+constexpr double flatten_tolerance = 0.01; // mm, of the outline that is nested
+constexpr int most_pieces = 20000;
+
+struct Limit
+{
+    const char* name;
+    double value;
+    double min;
+    double max;
+};
+
+Expected<void> check(const CutOptions& options, int count)
+{
+    const Limit limits[] = {
+        {"sheet width", options.sheet_width, 50, 5000},
+        {"sheet height", options.sheet_height, 50, 5000},
+        {"margin", options.margin, 0, 500},
+        {"spacing", options.spacing, 0, 200},
+        {"kerf in x", options.kerf_x, 0, 2},
+        {"kerf in y", options.kerf_y, 0, 2},
+        {"share of spares", options.spares, 0, 1},
+        {"stroke width", options.stroke_width, 0.001, 10},
+        {"cutting speed", options.speeds.cut, 0.01, 10000},
+        {"engraving speed", options.speeds.engrave, 0.01, 10000},
+        {"travel speed", options.speeds.travel, 0.01, 100000},
+        {"acceleration", options.speeds.acceleration, 1, 1e6},
+        {"time to pierce", options.speeds.pierce, 0, 1000},
+        {"density", options.density, 0.01, 30},
+        {"price per sheet", options.price_per_sheet, 0, 1e6},
+        {"price per minute", options.price_per_minute, 0, 1e6},
+        {"number of pieces", static_cast<double>(count), 1, most_pieces},
+    };
+    for (const Limit& limit : limits) {
+        if (!(limit.value >= limit.min && limit.value <= limit.max)) { // false for NaN
+            return refuse("the " + std::string(limit.name) + " is " + to_text(limit.value) + ": expected " +
+                          to_text(limit.min) + " to " + to_text(limit.max));
+        }
+    }
+    const double kerf = std::max(options.kerf_x, options.kerf_y);
+    if (options.spacing < kerf) {
+        return refuse("the spacing is " + to_text(options.spacing) + " mm and the kerf " + to_text(kerf) +
+                      " mm: pieces would be cut into; give at least the kerf, better 2 mm");
+    }
+    return {};
+}
+
+Expected<Nesting> lay_out(const Path& outline, int count, const CutOptions& options)
+{
+    NestOptions nest_options;
+    nest_options.sheet_width = options.sheet_width;
+    nest_options.sheet_height = options.sheet_height;
+    // Chords lie inside of arcs: the true gap is smaller by up to twice the tolerance.
+    nest_options.spacing = options.spacing + 2 * flatten_tolerance;
+    nest_options.margin = std::max(options.margin, std::max(options.kerf_x, options.kerf_y) / 2) + flatten_tolerance;
+    nest_options.count = count;
+    nest_options.grain = options.grain;
+    if (options.remnant) {
+        nest_options.remnant = Vec2(options.remnant->width, options.remnant->height);
+    }
+    return nest(flatten(outline, flatten_tolerance), nest_options);
+}
+
+std::string two_digits(std::size_t number)
+{
+    return (number < 10 ? "0" : "") + std::to_string(number);
+}
+
+//! Of the i-th piece, which is a spare from \p elements on.
+std::string piece_label(int i, int elements)
+{
+    return i < elements ? std::to_string(i + 1) : "S" + std::to_string(i - elements + 1);
+}
+
+std::vector<std::string> settings(const Element& element, const CutOptions& options)
+{
+    const auto mm = [](double value) { return to_text(value) + " mm"; };
+    std::vector<std::string> notes = {
+        "made with: rhombloom",
+        "units: 1 = 1 mm",
+        "element: la " + mm(element.la) + ", lb " + mm(element.lb) + ", alpha " + to_fixed(degrees(element.alpha), 4) +
+            " deg, thickness " + mm(element.thickness),
+        "machine: " + (options.machine.empty() ? "any" : options.machine),
+        "margin: " + mm(options.margin),
+        "spacing: " + mm(options.spacing) + " between finished edges",
+        options.kerf_x == 0 && options.kerf_y == 0
+            ? "kerf: 0 mm, the lines are the finished edges; let the cutting program compensate"
+            : "kerf: " + mm(options.kerf_x) + " in x, " + mm(options.kerf_y) +
+                  " in y, full width, compensated; do not compensate again",
+        "order: engrave, inner, outer",
+    };
+    notes.insert(notes.end(), options.notes.begin(), options.notes.end());
+    return notes;
+}
+
+//! The marks turned by half about the piece's centre if they would stand on their head on the sheet.
+std::vector<Path> upright(std::vector<Path> marks, const HookParameters& parameters, const Placement& placement)
+{
+    if (std::cos(placement.angle) < -1e-9) {
+        for (Path& mark : marks) {
+            mark = placed(mark, pi, 2 * piece_centre(parameters));
+        }
+    }
+    return marks;
+}
+
+//! Everything about a job that its sheets share.
+struct Job
+{
+    const Element& element;
+    const HookParameters& parameters;
+    const CutOptions& options;
+    Path outline;
+    int elements;
+    int spares;
+};
+
+Expected<Drawing> sheet_drawing(const Job& job, const Nesting& nesting, std::size_t index, int first)
+{
+    const Sheet& sheet = nesting.sheets[index];
+    std::vector<LaidPiece> pieces;
+    std::vector<std::string> ids;
+    for (const Placement& placement : sheet.placements) {
+        const std::string label = piece_label(first + static_cast<int>(ids.size()), job.elements);
+        const std::vector<Path> marks =
+            job.options.engraving == Engraving::On ? front_marks(job.parameters, label) : std::vector<Path>{};
+        auto piece = laid_piece(job.outline, upright(marks, job.parameters, placement), placement, job.options);
+        if (!piece) {
+            return tl::make_unexpected(piece.error());
+        }
+        pieces.push_back(std::move(*piece));
+        ids.push_back("element-" + label);
+    }
+    Drawing drawing = cut_drawing(pieces, ids, {sheet.width, sheet.height}, job.options);
+    drawing.notes = settings(job.element, job.options);
+    drawing.notes.push_back("sheet: " + std::to_string(index + 1) + " of " + std::to_string(nesting.sheets.size()) +
+                            ", " + to_text(sheet.width) + " x " + to_text(sheet.height) + " mm, " +
+                            std::to_string(pieces.size()) + " pieces");
+    return drawing;
+}
+
+void add_drawing(FileSet& files, const std::string& name, const Drawing& drawing, const CutOptions& options)
+{
+    files["cut/" + name + ".svg"] = svg(drawing, {options.stroke_width});
+    files["cut/" + name + ".dxf"] = dxf(drawing, options.dxf);
+}
+
+void add_work(CutReport& report, const CutWork& work)
+{
+    report.cut_length_m += work.cut / 1000;
+    report.engrave_length_m += work.engrave / 1000;
+    report.travel_m += work.travel / 1000;
+    report.pierces += work.pierces;
+    report.minutes += work.seconds / 60;
+}
+
+CutReport first_report(const Job& job, const Nesting& nesting)
+{
+    CutReport report;
+    report.elements = job.elements;
+    report.spares = job.spares;
+    report.sheets = static_cast<int>(nesting.sheets.size());
+    report.utilisation = nesting.utilisation;
+    report.speeds = job.options.speeds;
+    const double volume = std::abs(area(job.outline)) * job.parameters.thickness * (job.elements + job.spares);
+    report.mass_g = volume * job.options.density / 1000;
+    const Vec2 left = nesting.sheets.back().offcut.max - nesting.sheets.back().offcut.min;
+    report.remnant = left.minCoeff() > 0 ? SheetSize{left.x(), left.y()} : SheetSize{};
+    return report;
+}
+
+void add_cost(CutReport& report, const CutOptions& options)
+{
+    if (options.price_per_sheet > 0 || options.price_per_minute > 0) {
+        report.cost = report.sheets * options.price_per_sheet + report.minutes * options.price_per_minute;
+    }
+}
+
+} // namespace
+
+void use_machine(CutOptions& options, const Machine& machine)
+{
+    options.machine = machine.name;
+    options.sheet_width = machine.width;
+    options.sheet_height = machine.height;
+    options.margin = machine.margin;
+    options.colours = machine.colours;
+    options.annotations = machine.annotations;
+    options.dxf = machine.dxf;
+    options.speeds = machine.speeds;
+}
+
+Expected<CutFiles> cut_files(const Element& element, const HookParameters& parameters, int count,
+                             const CutOptions& options)
+{
+    if (auto ok = check(options, count); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    auto outline = element_outline(parameters);
+    if (!outline) {
+        return tl::make_unexpected(outline.error());
+    }
+    const int spares = static_cast<int>(std::ceil(count * options.spares - 1e-9));
+    const Job job = {element, parameters, options, std::move(*outline), count, spares};
+    const auto nesting = lay_out(job.outline, count + spares, options);
+    if (!nesting) {
+        return tl::make_unexpected(nesting.error());
+    }
+    CutFiles result = {{}, first_report(job, *nesting)};
+    int first = 0;
+    for (std::size_t i = 0; i < nesting->sheets.size(); ++i) {
+        auto drawing = sheet_drawing(job, *nesting, i, first);
+        if (!drawing) {
+            return tl::make_unexpected(drawing.error());
+        }
+        add_drawing(result.files, "sheet-" + two_digits(i + 1), *drawing, options);
+        add_work(result.report, cut_work(*drawing, options.speeds));
+        first += static_cast<int>(nesting->sheets[i].placements.size());
+    }
+    add_cost(result.report, options);
+    return result;
+}
+
+} // namespace rhombloom

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/element.h"
+#include "exporters/cut_time.h"
+#include "exporters/drawing.h"
+#include "exporters/dxf.h"
+#include "exporters/machines.h"
+#include "exporters/nesting.h"
+#include "exporters/outline.h"
+#include "exporters/save.h"
+
+namespace rhombloom {
+
+//! Numbers and the arrow that marks the front.
+enum class Engraving
+{
+    Off,
+    On
+};
+
+enum class Paper
+{
+    A4,
+    Letter
+};
+
+//! \brief How the pieces are to be cut. Lengths in mm.
+struct CutOptions
+{
+    std::string machine = {}; //!< a name for the notes; see use_machine()
+    double sheet_width = 600; //!< 600 x 400 is what the common 60 W lasers take
+    double sheet_height = 400;
+    double margin = 3;  //!< between a finished edge and the sheet's
+    double spacing = 2; //!< between finished edges of neighbours
+    double kerf_x = 0;  //!< FULL width of the cut; 0: the cutting program compensates
+    double kerf_y = 0;
+    double spares = 0; //!< share of the count, rounded up
+    Engraving engraving = Engraving::On;
+    ColourPreset colours = ColourPreset::LightBurn;
+    bool annotations = true;    //!< sheet border and reference square
+    double stroke_width = 0.01; //!< of SVG lines
+    DxfVersion dxf = DxfVersion::R2000;
+    std::optional<SheetSize> remnant = {}; //!< an offcut that is filled first
+    Grain grain = Grain::Any;
+    Speeds speeds = {};
+    double density = 0.905;     //!< g/cm3, polypropylene
+    double price_per_sheet = 0; //!< cost is reported when a price is given
+    double price_per_minute = 0;
+    Paper paper = Paper::A4;             //!< of the 1:1 template
+    std::vector<std::string> notes = {}; //!< more settings to record in the files, one "key: value" each
+};
+
+//! \brief Take sheet, margin, colours, DXF version, annotations and speeds from a machine.
+void use_machine(CutOptions& options, const Machine& machine);
+
+struct CutReport
+{
+    int elements = 0; //!< without spares
+    int spares = 0;
+    int sheets = 0;
+    double utilisation = 0;  //!< area of the pieces / area of the sheets used, the last one to its filled height
+    double cut_length_m = 0; //!< without the coupon
+    double engrave_length_m = 0;
+    double travel_m = 0;
+    int pierces = 0;
+    double minutes = 0;
+    Speeds speeds = {}; //!< that the minutes assume
+    double mass_g = 0;  //!< of all pieces
+    std::optional<double> cost = {};
+    SheetSize remnant = {};       //!< left of the last sheet; 0 x 0 when nothing is
+    std::string coupon_text = {}; //!< for the README: how to read the coupon and which option to set
+    std::vector<std::string> warnings = {};
+};
+
+struct CutFiles
+{
+    FileSet files; //!< cut/sheet-01.svg, cut/sheet-01.dxf, ..., cut/coupon.svg/.dxf, cut/template-1to1.pdf
+    CutReport report;
+};
+
+//! \brief All files for cutting \p count pieces, and what it takes to cut them.
+Expected<CutFiles> cut_files(const Element& element, const HookParameters& parameters, int count,
+                             const CutOptions& options);
+
+} // namespace rhombloom
