@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
-#include <thread>
 
 #include <Eigen/Geometry>
+
+#include "exporters/bent_element_threads.h"
 
 namespace rhombloom {
 
@@ -124,18 +124,6 @@ std::array<Vec3, 4> mean_corners(const Surface& surface, const std::vector<BentE
     const Vec3 x(longer / n, 0, 0);
     const Vec3 y = Vec3(std::cos(angle), std::sin(angle), 0) * (shorter / n);
     return {Vec3::Zero(), x, x + y, y};
-}
-
-void for_each_in_two_threads(std::size_t count, const std::function<void(std::size_t)>& work)
-{
-    const auto run = [&](std::size_t first) {
-        for (std::size_t i = first; i < count; i += 2) {
-            work(i);
-        }
-    };
-    std::thread other(run, 1);
-    run(0);
-    other.join();
 }
 
 //! Every element starts from the same solved patch: the result does not depend on the order.

@@ -46,13 +46,13 @@ void simplify(const std::vector<Vec2>& points, std::size_t first, std::size_t la
 //! The contour with the fewest points that \p options allow, its long segments divided.
 std::vector<Vec2> rim_points(const Path& outline, const FlatSheetOptions& options)
 {
-    const std::vector<Vec2> fine = flatten(outline, options.tolerance / 2);
+    const std::vector<Vec2> fine = flatten(outline, options.tolerance / 5);
     std::vector<bool> keep(fine.size(), false);
     // The two halves are congruent: start them at opposite points, so that their rims are too.
     const std::size_t half = fine.size() / 2;
     keep[0] = keep[half] = true;
-    simplify(fine, 0, half, options.tolerance / 2, keep);
-    simplify(fine, half, fine.size(), options.tolerance / 2, keep);
+    simplify(fine, 0, half, 0.8 * options.tolerance, keep);
+    simplify(fine, half, fine.size(), 0.8 * options.tolerance, keep);
     std::vector<Vec2> corners;
     for (std::size_t i = 0; i < fine.size(); ++i) {
         if (keep[i]) {

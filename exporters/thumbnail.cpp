@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <png.h>
 
+#include "exporters/bent_element_threads.h"
 #include "exporters/thumbnail_raster.h"
 
 namespace rhombloom {
@@ -125,12 +126,29 @@ struct Shading
 
 const std::array<Color, 2> sheet_tints = {Color(0.90F, 0.84F, 0.72F), Color(0.86F, 0.40F, 0.17F)};
 
+//! What varies slowly enough to be found once per pixel.
+struct Surroundings
+{
+    float open = 1;
+    float key = 1;
+};
+
+Surroundings surroundings(const Shading& s, int x, int y)
+{
+    const double depth = s.samples.depth[s.samples.at(x, y)];
+    const Vec3 p = s.projection.unproject(x + 0.5, y + 0.5, depth);
+    const double px = s.reach_mm * 0.5 * s.projection.height / (s.projection.camera.tangent * depth);
+    return {openness(s.samples, x, y, px, s.reach_mm), key_light(s.lights, p)};
+}
+
 //! Opaque-ish plastic under studio light; the inside is dim.
-Color plastic(const Shading& s, const Vec3& p, const Vec3& n, const Color& tint, float open, bool inside)
+Color plastic(const Shading& s, const Vec3& p, const Vec3& n, const Color& tint, const Surroundings& around,
+              bool inside)
 {
     const Vec3 view = (s.projection.camera.eye - p).normalized();
     const float wrap = static_cast<float>(std::max(0.0, (n.dot(s.lights.key) + 0.25) / 1.25));
-    const float key = wrap * key_light(s.lights, p);
+    const float open = around.open;
+    const float key = wrap * around.key;
     const float fill = static_cast<float>(std::max(0.0, (n.dot(s.lights.fill) + 0.4) / 1.4));
     const float sky = static_cast<float>(0.5 + 0.5 * n.z());
     const Vec3 half = (view + s.lights.key).normalized();
@@ -143,7 +161,8 @@ Color plastic(const Shading& s, const Vec3& p, const Vec3& n, const Color& tint,
 }
 
 //! Lit by a bulb in the middle: one sheet glows, two together less, the inside is bright.
-Color glowing(const Shading& s, const Vec3& p, const Vec3& n, const Color& tint, float open, bool inside, int sheets)
+Color glowing(const Shading& s, const Vec3& p, const Vec3& n, const Color& tint, const Surroundings& around,
+              bool inside, int sheets)
 {
     const Vec3 to_bulb = s.lights.centre - p;
     const double distance = to_bulb.norm();
@@ -152,11 +171,12 @@ Color glowing(const Shading& s, const Vec3& p, const Vec3& n, const Color& tint,
         static_cast<float>(std::pow(0.75 * s.lights.radius / std::max(distance, 0.3 * s.lights.radius), 1.2));
     const float through = inside ? 1.7F : (sheets > 1 ? 0.52F : 1.0F);
     const Color warm = tint.cwiseProduct(Color(1.0F, 0.70F, 0.36F));
-    const Color surface = plastic(s, p, n, tint, open, inside);
-    return 0.16F * surface + warm * (through * falloff * (0.25F + 0.85F * facing * facing)) * (0.75F + 0.25F * open);
+    const Color surface = plastic(s, p, n, tint, around, inside);
+    return 0.16F * surface +
+           warm * (through * falloff * (0.25F + 0.85F * facing * facing)) * (0.75F + 0.25F * around.open);
 }
 
-Color sample_color(const Shading& s, int x, int y)
+Color sample_color(const Shading& s, int x, int y, const Surroundings& around)
 {
     const std::size_t i = s.samples.at(x, y);
     const double depth = s.samples.depth[i];
@@ -166,11 +186,9 @@ Color sample_color(const Shading& s, int x, int y)
     if (inside) {
         n = -n;
     }
-    const double px = s.reach_mm * 0.5 * s.projection.height / (s.projection.camera.tangent * depth);
-    const float open = openness(s.samples, x, y, px, s.reach_mm);
     const Color& tint = sheet_tints[s.samples.tint[i]];
-    return s.options.lamp == LampLook::On ? glowing(s, p, n, tint, open, inside, s.samples.sheets[i])
-                                          : plastic(s, p, n, tint, open, inside);
+    return s.options.lamp == LampLook::On ? glowing(s, p, n, tint, around, inside, s.samples.sheets[i])
+                                          : plastic(s, p, n, tint, around, inside);
 }
 
 //! A soft spot of light on a wall.
@@ -195,13 +213,15 @@ std::uint8_t encoded(float linear)
 std::array<std::uint8_t, 4> pixel(const Shading& shading, int px, int py)
 {
     Color sum = Color::Zero();
+    Surroundings around;
     int covered = 0;
     for (int dy = 0; dy < supersampling; ++dy) {
         for (int dx = 0; dx < supersampling; ++dx) {
             const int x = px * supersampling + dx;
             const int y = py * supersampling + dy;
             if (std::isfinite(shading.samples.depth[shading.samples.at(x, y)])) {
-                sum += sample_color(shading, x, y);
+                around = covered == 0 ? surroundings(shading, x, y) : around;
+                sum += sample_color(shading, x, y, around);
                 ++covered;
             }
         }
@@ -273,14 +293,13 @@ Expected<std::string> picture_png(const BentSurface& bent, const PictureOptions&
     const Samples samples = rasterise(scene, projection, 9);
     const Lights lights = make_lights(scene, projection.camera);
     const Shading shading{options, samples, projection, lights};
-    std::vector<std::uint8_t> rgba;
-    rgba.reserve(static_cast<std::size_t>(options.width) * options.height * 4);
-    for (int y = 0; y < options.height; ++y) {
+    std::vector<std::uint8_t> rgba(static_cast<std::size_t>(options.width) * options.height * 4);
+    for_each_in_two_threads(static_cast<std::size_t>(options.height), [&](std::size_t y) {
         for (int x = 0; x < options.width; ++x) {
-            const auto p = pixel(shading, x, y);
-            rgba.insert(rgba.end(), p.begin(), p.end());
+            const auto p = pixel(shading, x, static_cast<int>(y));
+            std::copy(p.begin(), p.end(), rgba.begin() + static_cast<std::ptrdiff_t>((y * options.width + x) * 4));
         }
-    }
+    });
     return write_png(rgba, options.width, options.height);
 }
 

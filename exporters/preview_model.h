@@ -1,0 +1,46 @@
+#pragma once
+
+#include "exporters/gltf.h"
+#include "exporters/preview.h"
+
+namespace rhombloom {
+
+//! \brief What a viewer may tell about an element.
+struct ElementLabel
+{
+    std::string name; //!< "E001"
+    int step = 0;     //!< the step that inserts it, from 1; 0: the plan does not
+    Facing facing = Facing::Front;
+    int component = 0;
+};
+
+//! \brief The scene that every preview file shows.
+struct PreviewModel
+{
+    BentSurface bent;
+    std::vector<ElementLabel> labels; //!< by face number
+    std::vector<std::string> components;
+    double thickness = 0;
+    std::string title;
+};
+
+//! \brief Names, steps and sides of all elements.
+std::vector<ElementLabel> element_labels(const Surface& surface, const AssemblyPlan& plan);
+
+//! \brief step, side and component of an element as glTF extras.
+nlohmann::ordered_json label_extras(const PreviewModel& model, const ElementLabel& label);
+
+//! \brief A glTF node without data for every use: no extension, floats, one mesh per element.
+std::string plain_glb(const PreviewModel& model, const PreviewOptions& options);
+
+struct CompressedPreview
+{
+    std::string bytes;
+    double max_error_mm = 0; //!< measured on the decoded mesh
+    int modes = 0;
+};
+
+//! \brief One Draco mesh per side, `_ELEMENT_ID` = face number on every point; the labels stand in the node's extras.
+Expected<CompressedPreview> merged_glb(const PreviewModel& model, const PreviewOptions& options);
+
+} // namespace rhombloom
