@@ -11,6 +11,7 @@
 #include "exporters/machines.h"
 #include "exporters/nesting.h"
 #include "exporters/outline.h"
+#include "exporters/paper.h"
 #include "exporters/save.h"
 
 namespace rhombloom {
@@ -20,12 +21,6 @@ enum class Engraving
 {
     Off,
     On
-};
-
-enum class Paper
-{
-    A4,
-    Letter
 };
 
 //! \brief How the pieces are to be cut. Lengths in mm.
