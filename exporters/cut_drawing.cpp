@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "exporters/cut_order.h"
+#include "exporters/kerf.h"
 #include "exporters/strokes.h"
 
 namespace rhombloom {
@@ -178,7 +179,7 @@ Expected<LaidPiece> laid_piece(const Path& outline, const std::vector<Path>& mar
         piece.outer = begun_on_longest_line(piece.finished);
         return piece;
     }
-    return refuse("kerf compensation is not there yet");
+    return refuse("the kerf cannot be compensated yet: give 0 and let the cutting program do it");
 }
 
 Drawing cut_drawing(const std::vector<LaidPiece>& pieces, const std::vector<std::string>& ids, const SheetSize& sheet,

@@ -4,14 +4,15 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "exporters/coupon.h"
 #include "exporters/cut_drawing.h"
 #include "exporters/svg.h"
+#include "exporters/template_pdf.h"
 
 namespace rhombloom {
 
 namespace {
 
-constexpr double flatten_tolerance = 0.01; // mm, of the outline that is nested
 constexpr int most_pieces = 20000;
 
 struct Limit
@@ -57,20 +58,26 @@ Expected<void> check(const CutOptions& options, int count)
     return {};
 }
 
-Expected<Nesting> lay_out(const Path& outline, int count, const CutOptions& options)
+//! Of the outline that is nested, mm: no gap is larger than it must be by more than twice that.
+double flatten_tolerance(const HookParameters& parameters)
+{
+    return parameters.la / 8000;
+}
+
+Expected<Nesting> lay_out(const Path& outline, double tolerance, int count, const CutOptions& options)
 {
     NestOptions nest_options;
     nest_options.sheet_width = options.sheet_width;
     nest_options.sheet_height = options.sheet_height;
     // Chords lie inside of arcs: the true gap is smaller by up to twice the tolerance.
-    nest_options.spacing = options.spacing + 2 * flatten_tolerance;
-    nest_options.margin = std::max(options.margin, std::max(options.kerf_x, options.kerf_y) / 2) + flatten_tolerance;
+    nest_options.spacing = options.spacing + 2 * tolerance;
+    nest_options.margin = std::max(options.margin, std::max(options.kerf_x, options.kerf_y) / 2) + tolerance;
     nest_options.count = count;
     nest_options.grain = options.grain;
     if (options.remnant) {
         nest_options.remnant = Vec2(options.remnant->width, options.remnant->height);
     }
-    return nest(flatten(outline, flatten_tolerance), nest_options);
+    return nest(flatten(outline, tolerance), nest_options);
 }
 
 std::string two_digits(std::size_t number)
@@ -188,6 +195,39 @@ void add_cost(CutReport& report, const CutOptions& options)
     }
 }
 
+Expected<void> add_coupon(CutDrawings& result, const Job& job)
+{
+    auto strips = coupon(job.parameters, job.options);
+    if (!strips) {
+        return tl::make_unexpected(strips.error());
+    }
+    result.coupon = std::move(strips->drawing);
+    result.coupon.notes = settings(job.element, job.options);
+    result.coupon.notes.push_back(
+        "coupon: pairs of strips with 1, 2, ... notches, each for another kerf; the square for none");
+    result.report.coupon_text = strips->text;
+    if (!strips->warning.empty()) {
+        result.report.warnings.push_back(strips->warning);
+    }
+    return {};
+}
+
+Expected<void> add_sheets(CutDrawings& result, const Job& job, const Nesting& nesting)
+{
+    int first = 0;
+    for (std::size_t i = 0; i < nesting.sheets.size(); ++i) {
+        auto drawing = sheet_drawing(job, nesting, i, first);
+        if (!drawing) {
+            return tl::make_unexpected(drawing.error());
+        }
+        add_work(result.report, cut_work(*drawing, job.options.speeds));
+        result.sheets.push_back(std::move(*drawing));
+        first += static_cast<int>(nesting.sheets[i].placements.size());
+    }
+    add_cost(result.report, job.options);
+    return {};
+}
+
 } // namespace
 
 void use_machine(CutOptions& options, const Machine& machine)
@@ -202,8 +242,8 @@ void use_machine(CutOptions& options, const Machine& machine)
     options.speeds = machine.speeds;
 }
 
-Expected<CutFiles> cut_files(const Element& element, const HookParameters& parameters, int count,
-                             const CutOptions& options)
+Expected<CutDrawings> cut_drawings(const Element& element, const HookParameters& parameters, int count,
+                                   const CutOptions& options)
 {
     if (auto ok = check(options, count); !ok) {
         return tl::make_unexpected(ok.error());
@@ -214,22 +254,38 @@ Expected<CutFiles> cut_files(const Element& element, const HookParameters& param
     }
     const int spares = static_cast<int>(std::ceil(count * options.spares - 1e-9));
     const Job job = {element, parameters, options, std::move(*outline), count, spares};
-    const auto nesting = lay_out(job.outline, count + spares, options);
+    const auto nesting = lay_out(job.outline, flatten_tolerance(parameters), count + spares, options);
     if (!nesting) {
         return tl::make_unexpected(nesting.error());
     }
-    CutFiles result = {{}, first_report(job, *nesting)};
-    int first = 0;
-    for (std::size_t i = 0; i < nesting->sheets.size(); ++i) {
-        auto drawing = sheet_drawing(job, *nesting, i, first);
-        if (!drawing) {
-            return tl::make_unexpected(drawing.error());
-        }
-        add_drawing(result.files, "sheet-" + two_digits(i + 1), *drawing, options);
-        add_work(result.report, cut_work(*drawing, options.speeds));
-        first += static_cast<int>(nesting->sheets[i].placements.size());
+    CutDrawings result = {{}, {}, first_report(job, *nesting)};
+    if (auto ok = add_sheets(result, job, *nesting); !ok) {
+        return tl::make_unexpected(ok.error());
     }
-    add_cost(result.report, options);
+    if (auto ok = add_coupon(result, job); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    return result;
+}
+
+Expected<CutFiles> cut_files(const Element& element, const HookParameters& parameters, int count,
+                             const CutOptions& options)
+{
+    auto drawings = cut_drawings(element, parameters, count, options);
+    if (!drawings) {
+        return tl::make_unexpected(drawings.error());
+    }
+    CutFiles result = {{}, std::move(drawings->report)};
+    for (std::size_t i = 0; i < drawings->sheets.size(); ++i) {
+        add_drawing(result.files, "sheet-" + two_digits(i + 1), drawings->sheets[i], options);
+    }
+    add_drawing(result.files, "coupon", drawings->coupon, options);
+    auto pdf =
+        element_outline(parameters).and_then([&](const Path& outline) { return template_pdf(outline, options.paper); });
+    if (!pdf) {
+        return tl::make_unexpected(pdf.error());
+    }
+    result.files["cut/template-1to1.pdf"] = std::move(*pdf);
     return result;
 }
 

@@ -71,11 +71,24 @@ struct CutReport
     std::vector<std::string> warnings = {};
 };
 
+//! What cut_files() writes, before it is text.
+struct CutDrawings
+{
+    std::vector<Drawing> sheets;
+    Drawing coupon;
+    CutReport report;
+};
+
 struct CutFiles
 {
     FileSet files; //!< cut/sheet-01.svg, cut/sheet-01.dxf, ..., cut/coupon.svg/.dxf, cut/template-1to1.pdf
     CutReport report;
 };
+
+//! \brief The sheets for \p count pieces and what it takes to cut them. Refuses options that no machine has, and
+//! pieces that the sheet or the kerf does not allow.
+Expected<CutDrawings> cut_drawings(const Element& element, const HookParameters& parameters, int count,
+                                   const CutOptions& options);
 
 //! \brief All files for cutting \p count pieces, and what it takes to cut them.
 Expected<CutFiles> cut_files(const Element& element, const HookParameters& parameters, int count,
