@@ -183,6 +183,9 @@ BuildHistory build_history(const Replay& replay, const Element& element)
         const bool same = !history.targets.empty() && history.targets.back().ports == next.ports &&
                           std::equal(next.face.begin(), next.face.end(), history.targets.back().face.begin(),
                                      [](int a, int b) { return (a < 0) == (b < 0); });
+        if (same && part.stage != last_stage(replay)) {
+            continue; // nothing to build: another part was placed, or the shape only moved
+        }
         if (same) {
             history.targets.pop_back();
         }

@@ -1,0 +1,234 @@
+#include "exporters/booklet_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace rhombloom {
+
+namespace {
+
+constexpr int longest_run = 16; // steps that share their drawn groups
+
+//! The steps that share a view, and what their pictures are put together from.
+struct Run
+{
+    int first = 0;
+    int end = 0;
+    //! Back to front: a group of elements that all steps show, or a single element.
+    struct Item
+    {
+        int group = -1;
+        int element = -1;
+        Face face;
+    };
+    std::vector<Item> items;
+};
+
+} // namespace
+
+struct StepDrawer::State
+{
+    PdfCanvas& canvas;
+    BookletSources sources;
+    std::vector<char> present;
+    std::vector<int> names;
+    Run run;
+    std::map<std::array<int, 3>, int> ghosts; // chapter, stage, view -> group
+    int stage = -1;
+    std::vector<int> face; // of the elements in that stage
+    int insets = 0;
+
+    const Step& step(int k) const { return sources.plan.steps[k]; }
+    const StepPlace& place(int k) const { return sources.layout.places[k]; }
+
+    Scene scene(int k) const { return {&stage_surface(sources.replay, step(k).stage), place(k).camera}; }
+
+    int chapter(int k) const
+    {
+        int c = 0;
+        for (const Chapter& candidate : sources.layout.chapters) {
+            c += candidate.first + candidate.count <= k;
+        }
+        return c;
+    }
+
+    bool same_picture(int a, int b) const
+    {
+        return chapter(a) == chapter(b) && step(a).stage == step(b).stage && place(a).view == place(b).view;
+    }
+
+    int ghost(int k);
+    void start_run(int first);
+    std::vector<Face> built(int k) const;
+    void draw_picture(int k);
+    void draw_names(int k);
+    void draw_words(int k);
+};
+
+int StepDrawer::State::ghost(int k)
+{
+    const auto [entry, fresh] = ghosts.emplace(std::array{chapter(k), step(k).stage, place(k).view}, -1);
+    if (fresh) {
+        const Scene seen = scene(k);
+        const std::vector<Face> faces = painter_order(seen, shown_faces(sources.replay, sources.plan, step(k).stage));
+        entry->second = canvas.group(place(k).half.maxCoeff() + 4, [&] {
+            for (const Face f : faces) {
+                draw_element(canvas, seen, f, Paint::Ghost);
+            }
+        });
+    }
+    return entry->second;
+}
+
+void StepDrawer::State::start_run(int first)
+{
+    run = Run{first, first + 1, {}};
+    const int count = static_cast<int>(sources.plan.steps.size());
+    while (run.end < count && run.end < first + longest_run && same_picture(first, run.end)) {
+        ++run.end;
+    }
+    std::vector<char> changing(present.size(), 0);
+    std::vector<char> appears = present;
+    for (int k = first; k < run.end; ++k) {
+        changing[step(k).element] = 1;
+        appears[step(k).element] = 1;
+    }
+    std::map<int, int> element_of;
+    std::vector<Face> faces;
+    for (std::size_t e = 0; e < appears.size(); ++e) {
+        if (appears[e] && face[e] >= 0) {
+            faces.emplace_back(face[e]);
+            element_of[face[e]] = static_cast<int>(e);
+        }
+    }
+    const Scene seen = scene(first);
+    const std::vector<Face> order = painter_order(seen, faces);
+    for (std::size_t i = 0; i < order.size();) {
+        std::size_t j = i;
+        while (j < order.size() && !changing[element_of[order[j].idx()]]) {
+            ++j;
+        }
+        if (j == i || run.end - first < 2) {
+            run.items.push_back({-1, element_of[order[i].idx()], order[i]});
+            ++i;
+            continue;
+        }
+        const int group = canvas.group(place(first).half.maxCoeff() + 4, [&] {
+            for (std::size_t m = i; m < j; ++m) {
+                draw_element(canvas, seen, order[m], Paint::Built);
+            }
+        });
+        run.items.push_back({group, -1, Face()});
+        i = j;
+    }
+}
+
+std::vector<Face> StepDrawer::State::built(int k) const
+{
+    std::vector<Face> faces;
+    for (std::size_t e = 0; e < present.size(); ++e) {
+        if (present[e] && static_cast<int>(e) != step(k).element && face[e] >= 0) {
+            faces.emplace_back(face[e]);
+        }
+    }
+    return faces;
+}
+
+void StepDrawer::State::draw_names(int k)
+{
+    const Scene seen = scene(k);
+    const std::vector<Face> others = built(k);
+    for (const Join& join : step(k).joins) {
+        const Face f(face[join.to]);
+        if (seen_part(seen, f, others) < 0.5) {
+            continue;
+        }
+        const Vec2 at = place(k).centre + project(seen.camera, element_centre(*seen.surface, f));
+        canvas.text(std::to_string(names[join.to]), at + Vec2(0, 2.8), {8, 0x000000, Align::Centre, 0xFFFFFF});
+    }
+}
+
+void StepDrawer::State::draw_picture(int k)
+{
+    const Scene seen = scene(k);
+    const Vec2 centre = place(k).centre;
+    canvas.place(ghost(k), centre);
+    const StepKind kind = step(k).kind;
+    std::vector<int> sides;
+    for (const Join& join : step(k).joins) {
+        sides.push_back(join.side);
+    }
+    const Face own(face[step(k).element]);
+    canvas.shifted(centre, [&] {
+        for (const Run::Item& item : run.items) {
+            if (item.group >= 0) {
+                canvas.place(item.group, Vec2::Zero());
+            } else if (item.element == step(k).element) {
+                draw_element(canvas, seen, item.face, kind == StepKind::Remove ? Paint::Removed : Paint::Next);
+            } else if (present[item.element]) {
+                draw_element(canvas, seen, item.face, Paint::Built);
+            }
+        }
+        draw_joined_sides(canvas, seen, own, sides, built(k));
+        const bool outward = kind == StepKind::Remove || kind == StepKind::Unhook;
+        draw_arrow(canvas, seen, own, sides, outward ? -1 : 1);
+    });
+    draw_names(k);
+}
+
+void StepDrawer::State::draw_words(int k)
+{
+    const Box& box = place(k).box;
+    const double width = box.max.x() - box.min.x();
+    canvas.tagged("H2", [&] {
+        canvas.text("Step", box.min + Vec2(8, 27), {10, 0x505050, Align::Left, 0});
+        canvas.text(" " + std::to_string(k + 1), box.min + Vec2(30, 27), {26, 0x000000, Align::Left, 0});
+    });
+    canvas.tagged("P", [&] {
+        canvas.paragraph(step_words(sources, k, names), box.min + Vec2(8, 42), width - 16, {9, 0x202020}, 11.5);
+    });
+    const std::string turn = turn_words(place(k).turn);
+    if (!turn.empty()) {
+        canvas.tagged("P", [&] {
+            canvas.text("\u21BB " + turn, box.min + Vec2(width - 8, 20), {9, 0x0050A0, Align::Right, 0});
+        });
+    }
+}
+
+StepDrawer::StepDrawer(PdfCanvas& canvas, const BookletSources& sources)
+    : state_(new State{canvas, sources, {}, {}, {}, {}, -1, {}, 0})
+{
+    state_->present.assign(sources.replay.surface.n_faces() + sources.plan.temporary.size(), 0);
+    state_->names.assign(state_->present.size(), 0);
+}
+
+StepDrawer::~StepDrawer() = default;
+
+int StepDrawer::insets() const
+{
+    return state_->insets;
+}
+
+void StepDrawer::draw(int k)
+{
+    State& s = *state_;
+    const Step& step = s.step(k);
+    if (step.stage != s.stage) {
+        s.stage = step.stage;
+        s.face = faces_of_elements(s.sources.replay, s.sources.plan, step.stage);
+    }
+    if (k >= s.run.end) {
+        s.start_run(k);
+    }
+    if (step.kind == StepKind::Insert) {
+        s.names[step.element] = k + 1;
+    }
+    const Box& box = s.place(k).box;
+    s.canvas.outline({box.min, {box.max.x(), box.min.y()}, box.max, {box.min.x(), box.max.y()}}, {0.6, 0xB0B0B0, 0});
+    s.draw_words(k);
+    s.canvas.figure(step_words(s.sources, k, s.names), [&] { s.draw_picture(k); });
+    s.present[step.element] = step.kind != StepKind::Remove;
+}
+
+} // namespace rhombloom

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "exporters/booklet_layout.h"
+
+namespace rhombloom {
+
+//! What the pages of one booklet share.
+struct BookletSources
+{
+    const Replay& replay;
+    const Element& element;
+    const AssemblyPlan& plan;
+    const BookletLayout& layout;
+};
+
+//! \brief Draws the steps of a booklet, in their order; each once.
+//! \details Steps that share a view share what does not change between them: the ghost of the target, and runs of built
+//! elements that no element of these steps comes between.
+class StepDrawer
+{
+public:
+    StepDrawer(PdfCanvas& canvas, const BookletSources& sources);
+    ~StepDrawer();
+
+    //! \brief Draw step \p k (0..) in its cell. Call with k = 0, 1, 2, ...
+    void draw(int k);
+
+    //! \brief How many steps had a magnified detail so far.
+    int insets() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+//! \brief What to do in step \p k, in words: which sides go where. Elements are called by the step that put them in.
+std::string step_words(const BookletSources& sources, int k, const std::vector<int>& names);
+
+//! \brief "Turn the model 72° to the right"; empty when the view stays.
+std::string turn_words(const Turn& turn);
+
+} // namespace rhombloom

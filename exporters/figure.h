@@ -1,0 +1,64 @@
+#pragma once
+
+#include "core/building/build_history.h"
+#include "exporters/camera.h"
+#include "exporters/pdf_canvas.h"
+
+namespace rhombloom {
+
+//! \brief The colours of the booklet. The next element is the only dark fill (L* 43); all others have L* >= 75, so
+//! that it stands out in grey and for colour-blind readers.
+namespace colour {
+inline constexpr unsigned next = 0xC81E1E;
+inline constexpr unsigned built_light = 0xF7F6F3;
+inline constexpr unsigned built_dark = 0xD2D1CC;
+inline constexpr unsigned inside = 0xB8C4D6;
+inline constexpr unsigned chapter = 0xF2D3A6;
+inline constexpr unsigned ghost = 0xFFFFFF;
+inline constexpr unsigned ghost_line = 0xCDCDCD;
+inline constexpr unsigned line = 0x3A3A3A;
+inline constexpr unsigned dot = 0x6A6A6A;
+} // namespace colour
+
+//! \brief A surface seen by a camera: what every figure is drawn from.
+struct Scene
+{
+    const Surface* surface = nullptr;
+    Camera camera;
+};
+
+//! \brief The four corners of an element on the paper, relative to the figure's centre.
+Polygon outline_of(const Scene& scene, Face f);
+
+//! \brief The faces from the farthest to the nearest: none is drawn before one it hides.
+//! \details Where elements overlap on the paper, the pixels tell which lies in front; the order is a topological sort
+//! of these facts, with the mean depth as tie-break. Any part of the result, in the same sequence, is right as well.
+std::vector<Face> painter_order(const Scene& scene, const std::vector<Face>& faces);
+
+//! \brief How much of an element, 0..1, is in front of all of \p others, found by sampling.
+double seen_part(const Scene& scene, Face f, const std::vector<Face>& others);
+
+enum class Paint
+{
+    Ghost,
+    Built,
+    Chapter,
+    Next,
+    Removed
+};
+
+//! \brief One element: tinted by its slope and by which face is seen, dotted when it is flipped.
+void draw_element(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint);
+
+//! \brief Area of a polygon, unsigned, in the square of its unit.
+double polygon_area(const Polygon& polygon);
+
+//! \brief The sides just joined, drawn thick where nothing built hides them.
+void draw_joined_sides(PdfCanvas& canvas, const Scene& scene, Face f, const std::vector<int>& sides,
+                       const std::vector<Face>& built);
+
+//! \brief An arrow that shows where the element comes from: across its free sides, else from outside.
+//! \param away +1: the element goes in; -1: it comes out
+void draw_arrow(PdfCanvas& canvas, const Scene& scene, Face f, const std::vector<int>& joined, int away);
+
+} // namespace rhombloom

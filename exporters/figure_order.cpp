@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <queue>
+
+#include "exporters/figure.h"
+
+namespace rhombloom {
+
+namespace {
+
+//! A pixel's layers: (depth toward the eye, index into the list of faces).
+using Layers = std::vector<std::pair<float, int>>;
+
+//! All faces over a grid of pixels, every layer kept.
+class LayeredRaster
+{
+public:
+    LayeredRaster(const Scene& scene, const std::vector<Face>& faces)
+    {
+        Vec2 low = Vec2::Constant(1e300);
+        Vec2 high = Vec2::Constant(-1e300);
+        for (const Face f : faces) {
+            for (const Vec2& p : outline_of(scene, f)) {
+                low = low.cwiseMin(p);
+                high = high.cwiseMax(p);
+            }
+        }
+        scale_ = size / std::max(1e-9, (high - low).maxCoeff());
+        low_ = low;
+        pixels_.resize(size * size);
+        for (int i = 0; i < static_cast<int>(faces.size()); ++i) {
+            add(scene, faces[i], i);
+        }
+        for (Layers& layers : pixels_) {
+            std::sort(layers.begin(), layers.end());
+        }
+    }
+
+    const std::vector<Layers>& pixels() const { return pixels_; }
+
+private:
+    static constexpr int size = 320;
+
+    void add(const Scene& scene, Face f, int index)
+    {
+        const Quad q = quad(*scene.surface, f);
+        std::array<Vec3, 4> p;
+        for (int k = 0; k < 4; ++k) {
+            const Vec3& x = scene.surface->point(Vertex(q[k]));
+            const Vec2 at = (project(scene.camera, x) - low_) * scale_;
+            p[k] = Vec3(at.x(), at.y(), depth(scene.camera, x));
+        }
+        add(p[0], p[1], p[2], index);
+        add(p[0], p[2], p[3], index);
+    }
+
+    void add(const Vec3& a, const Vec3& b, const Vec3& c, int index)
+    {
+        const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+        if (area == 0) {
+            return;
+        }
+        const auto low = [&](int i) { return std::max(0, static_cast<int>(std::min({a[i], b[i], c[i]}))); };
+        const auto high = [&](int i) { return std::min(size - 1, static_cast<int>(std::max({a[i], b[i], c[i]}))); };
+        for (int y = low(1); y <= high(1); ++y) {
+            for (int x = low(0); x <= high(0); ++x) {
+                const Vec2 p(x + 0.5, y + 0.5);
+                const double v = ((p.x() - a.x()) * (c.y() - a.y()) - (p.y() - a.y()) * (c.x() - a.x())) / area;
+                const double w = ((b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x())) / area;
+                if (v >= 0 && w >= 0 && v + w <= 1) {
+                    const double z = a.z() + v * (b.z() - a.z()) + w * (c.z() - a.z());
+                    pixels_[y * size + x].emplace_back(static_cast<float>(z), index);
+                }
+            }
+        }
+    }
+
+    double scale_ = 1;
+    Vec2 low_ = Vec2::Zero();
+    std::vector<Layers> pixels_;
+};
+
+//! [far][near] -> pixels that say so.
+using Votes = std::vector<std::map<int, int>>;
+
+Votes count_votes(const LayeredRaster& raster, std::size_t faces)
+{
+    Votes votes(faces);
+    for (const Layers& layers : raster.pixels()) {
+        for (std::size_t i = 1; i < layers.size(); ++i) {
+            if (layers[i - 1].second != layers[i].second) {
+                ++votes[layers[i - 1].second][layers[i].second];
+            }
+        }
+    }
+    return votes;
+}
+
+//! Keeps the stronger opinion of each pair.
+Votes settle(const Votes& votes)
+{
+    Votes result(votes.size());
+    for (int far = 0; far < static_cast<int>(votes.size()); ++far) {
+        for (const auto& [near, count] : votes[far]) {
+            const auto back = votes[near].find(far);
+            const int against = back == votes[near].end() ? 0 : back->second;
+            if (count > against || (count == against && far < near)) {
+                result[far][near] = count - against + 1;
+            }
+        }
+    }
+    return result;
+}
+
+//! Topological sort; when a cycle is left, the face with the fewest votes against it goes first.
+std::vector<int> sorted(const Votes& in_front, const std::vector<double>& depths)
+{
+    const auto n = static_cast<int>(in_front.size());
+    std::vector<int> waiting(n, 0); // votes of the undrawn faces behind
+    for (const auto& nearer : in_front) {
+        for (const auto& [near, count] : nearer) {
+            waiting[near] += count;
+        }
+    }
+    using Entry = std::tuple<int, double, int>; // votes against, depth, face: the least first
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    for (int i = 0; i < n; ++i) {
+        queue.emplace(waiting[i], depths[i], i);
+    }
+    std::vector<char> drawn(n, 0);
+    std::vector<int> order;
+    while (!queue.empty()) {
+        const auto [votes, d, i] = queue.top();
+        queue.pop();
+        if (drawn[i] || votes != waiting[i]) {
+            continue;
+        }
+        drawn[i] = 1;
+        order.push_back(i);
+        for (const auto& [near, count] : in_front[i]) {
+            if (!drawn[near]) {
+                waiting[near] -= count;
+                queue.emplace(waiting[near], depths[near], near);
+            }
+        }
+    }
+    return order;
+}
+
+} // namespace
+
+std::vector<Face> painter_order(const Scene& scene, const std::vector<Face>& faces)
+{
+    if (faces.empty()) {
+        return {};
+    }
+    const LayeredRaster raster(scene, faces);
+    std::vector<double> depths;
+    for (const Face f : faces) {
+        depths.push_back(depth(scene.camera, element_centre(*scene.surface, f)));
+    }
+    std::vector<Face> result;
+    for (const int i : sorted(settle(count_votes(raster, faces.size())), depths)) {
+        result.push_back(faces[i]);
+    }
+    return result;
+}
+
+} // namespace rhombloom
