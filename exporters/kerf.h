@@ -23,13 +23,14 @@ struct ToolPath
 //! contour grows, a clockwise one (a hole) shrinks.
 //! \details The exact Minkowski sum with a disc of the kerf's diameter: lines shift, arcs stay arcs with another
 //! radius, convex corners get an arc, concave corners the intersection. With different kerfs in x and y the disc is
-//! an ellipse and arcs become pairs of arcs within #kerf_tolerance. Corner arcs shorter than #shortest_segment become
-//! mitres, and shorter segments are merged with their neighbours.
+//! an ellipse and arcs become pairs of arcs within #kerf_tolerance. Segments
+//! shorter than #shortest_segment are left out, their neighbours meeting in a mitre, or are merged into a neighbour. A
+//! kerf of 0 in one direction only counts as 0.001 mm.
 //!
 //! A slit is a gap between two parallel lines joined at one end by a half circle or a line. When it is no wider than
 //! the kerf it becomes one open line along its middle, which cuts it as wide as the kerf; when it is wider by less
 //! than #narrowest_slit both its edges would be cut in the same place and the contour is refused. Refused too: any
-//! other gap that the kerf would close deeper than its own width; the sentence names the place and the largest kerf.
+//! other gap that the kerf would close deeper than its own width; the sentence names the place.
 //! \pre The contour is simple.
 Expected<ToolPath> tool_path(const Path& contour, const Kerf& kerf);
 
@@ -37,7 +38,7 @@ Expected<ToolPath> tool_path(const Path& contour, const Kerf& kerf);
 inline constexpr double shortest_segment = 0.05;
 //! mm, between the two passes along a slit.
 inline constexpr double narrowest_slit = 0.05;
-//! mm, of the arcs that stand for elliptic ones.
-inline constexpr double kerf_tolerance = 0.0005;
+//! mm, of the arcs that stand for elliptic ones, where they need not be shorter than the shortest segment for it.
+inline constexpr double kerf_tolerance = 0.00002;
 
 } // namespace rhombloom
