@@ -1,9 +1,8 @@
 #include "core/form/concavity_energy.h"
 
-#include <cmath>
-
 #include <Eigen/Geometry>
 
+#include "core/form/term_kernels.h"
 #include "core/units.h"
 
 namespace rhombloom {
@@ -72,7 +71,21 @@ double hinge_angle(const HingePoints& p)
     const Vector3d edge = p.x1 - p.x0;
     const Vector3d left = edge.cross(p.x2 - p.x0);
     const Vector3d right = (p.x3 - p.x0).cross(edge);
-    return std::atan2(left.cross(right).dot(edge), left.dot(right) * edge.norm());
+    return portable_atan2(-left.dot(p.x3 - p.x0) * edge.norm(), left.dot(right));
+}
+
+Eigen::Matrix<double, 12, 1> hinge_angle_gradient(const HingePoints& p)
+{
+    const Vector3d edge = p.x1 - p.x0;
+    const double length = edge.norm();
+    Eigen::Matrix<double, 12, 1> gradient = Eigen::Matrix<double, 12, 1>::Zero();
+    const Wing left = make_wing(p.x0, edge / length, length, p.x2);
+    const Wing right = make_wing(p.x0, edge / length, length, p.x3);
+    for (int k = 0; k < 3; ++k) {
+        gradient.segment<3>(3 * (k < 2 ? k : 2)) -= wing_gradient(left, k);
+        gradient.segment<3>(3 * (k < 2 ? k : 3)) += wing_gradient(right, k);
+    }
+    return gradient;
 }
 
 HingeAngle hinge_angle_derivatives(const HingePoints& p)
@@ -89,14 +102,19 @@ HingeAngle hinge_angle_derivatives(const HingePoints& p)
     return out;
 }
 
+double ridge_weight(const HingeLaw& law)
+{
+    const double span = pi - law.ridge_start;
+    return law.concavity_weight * (1 - law.convex_weight) * pi * pi / (span * span);
+}
+
 HingeResponse hinge_response(const HingeLaw& law, double angle)
 {
     const double weight = angle < 0 ? law.concavity_weight : law.convex_weight * law.concavity_weight;
     HingeResponse out{weight * angle * angle, 0, 2 * weight * angle, 2 * weight};
     const double excess = angle - law.ridge_start;
     if (excess > 0) {
-        const double span = pi - law.ridge_start;
-        const double ridge = law.concavity_weight * (1 - law.convex_weight) * pi * pi / (span * span);
+        const double ridge = ridge_weight(law);
         out.ridge = ridge * excess * excess;
         out.moment += 2 * ridge * excess;
         out.stiffness += 2 * ridge;

@@ -24,6 +24,9 @@ struct HingeAngle
     Eigen::Matrix<double, 12, 12> hessian;
 };
 
+//! \brief The gradient alone.
+Eigen::Matrix<double, 12, 1> hinge_angle_gradient(const HingePoints& p);
+
 HingeAngle hinge_angle_derivatives(const HingePoints& p);
 
 //! \brief What an angle costs. Dimensionless: times la gives millimetres.
@@ -42,6 +45,9 @@ struct HingeResponse
     double moment = 0;
     double stiffness = 0;
 };
+
+//! \brief Weight of the ridge, which is `weight * (angle - ridge_start)^2`.
+double ridge_weight(const HingeLaw& law);
 
 HingeResponse hinge_response(const HingeLaw& law, double angle);
 

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "core/form/embedding_energy.h"
-#include "core/form/newton.h"
+#include "core/form/minimise.h"
+#include "core/form/parallel.h"
 #include "core/form/rigid_alignment.h"
 #include "core/text.h"
 
@@ -82,7 +83,7 @@ EmbedReport refusal(const EmbedOptions& options, std::string message)
     return report;
 }
 
-std::string why_not(const NewtonResult& result)
+std::string why_not(const MinimiseResult& result)
 {
     switch (result.reason) {
     case StopReason::Converged:
@@ -97,19 +98,20 @@ std::string why_not(const NewtonResult& result)
     return "no further decrease after " + std::to_string(result.iterations) + " iterations";
 }
 
-NewtonOptions newton_options(const EmbedOptions& options, double la)
+MinimiseOptions minimise_options(const EmbedOptions& options, double la)
 {
     using Clock = std::chrono::steady_clock;
-    NewtonOptions out;
+    MinimiseOptions out;
     out.tolerance = options.tolerance;
     out.max_iterations = options.max_iterations;
+    out.threads = options.threads > 0 ? options.threads : default_threads();
     const auto begin = Clock::now();
-    out.progress = [&options, begin, la](int iteration, double energy, double gradient_norm) {
+    out.progress = [&options, begin, la](int iteration, const Iterate& iterate) {
         const std::chrono::duration<double> spent = Clock::now() - begin;
         if (options.time_budget_s > 0 && spent.count() > options.time_budget_s) {
             return false;
         }
-        return !options.progress || options.progress({iteration, energy * la, gradient_norm});
+        return !options.progress || options.progress({iteration, iterate.energy * la, iterate.gradient_norm()});
     };
     return out;
 }
@@ -123,9 +125,9 @@ EmbedReport embed(Surface& surface, const Element& element, const EmbedOptions& 
     }
     const EmbeddingTerms terms = embedding_terms(surface, element, options);
     const Eigen::Matrix3Xd start = positions(surface);
-    VectorXd x = unknowns(start, element.la);
-    const NewtonResult result = newton(terms, x, newton_options(options, element.la));
-    Eigen::Matrix3Xd points = element.la * x.reshaped(3, surface.n_vertices());
+    Iterate iterate = iterate_at(terms, unknowns(start, element.la));
+    const MinimiseResult result = minimise(terms, iterate, minimise_options(options, element.la));
+    Eigen::Matrix3Xd points = element.la * iterate.x.reshaped(3, surface.n_vertices());
     align_rigidly(points, start);
     for (const Vertex v : surface.vertices()) {
         surface.set_point(v, points.col(v.idx()));

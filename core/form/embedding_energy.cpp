@@ -1,7 +1,8 @@
 #include "core/form/embedding_energy.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/form/term_kernels.h"
 
 namespace rhombloom {
 
@@ -86,39 +87,26 @@ void add_hinge(const EmbeddingTerms& terms, const HingeVertices& hinge, const st
 
 } // namespace
 
+namespace {
+
+EnergyParts evaluate(const EmbeddingTerms& terms, const VectorXd& x, double* gradient)
+{
+    const TermEnergy springs = term_kernels().springs(terms, x.data(), gradient);
+    const TermEnergy hinges = term_kernels().hinges(terms, x.data(), gradient);
+    return {springs.energy, hinges.energy, springs.guard + hinges.guard};
+}
+
+} // namespace
+
 EnergyParts embedding_energy(const EmbeddingTerms& terms, const VectorXd& x)
 {
-    VectorXd unused;
-    return embedding_gradient(terms, x, unused);
+    return evaluate(terms, x, nullptr);
 }
 
 EnergyParts embedding_gradient(const EmbeddingTerms& terms, const VectorXd& x, VectorXd& gradient)
 {
     gradient.setZero(x.size());
-    EnergyParts parts;
-    for (const SpringPair& pair : terms.springs) {
-        const Vector3d difference = point(x, pair.b) - point(x, pair.a);
-        const double length = difference.norm();
-        const SpringResponse response = pair_response(terms.spring_law, pair, length);
-        const Vector3d pull = response.force / std::max(length, smallest_length) * difference;
-        gradient.segment<3>(3 * pair.a) -= pull;
-        gradient.segment<3>(3 * pair.b) += pull;
-        parts.spring += response.energy;
-        parts.guard += response.barrier;
-    }
-    for (const HingeVertices& hinge : terms.hinges) {
-        const HingePoints points = hinge_points(x, hinge);
-        const HingeResponse response = hinge_response(terms.hinge_law, hinge_angle(points));
-        if (is_active(response)) {
-            const HingeAngle angle = hinge_angle_derivatives(points);
-            for (int k = 0; k < 4; ++k) {
-                gradient.segment<3>(3 * hinge[k]) += response.moment * angle.gradient.segment<3>(3 * k);
-            }
-        }
-        parts.concavity += response.energy;
-        parts.guard += response.ridge;
-    }
-    return parts;
+    return evaluate(terms, x, gradient.data());
 }
 
 BlockMatrix hessian_matrix(const EmbeddingTerms& terms, HessianPattern& pattern)

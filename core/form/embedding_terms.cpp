@@ -4,15 +4,31 @@ namespace rhombloom {
 
 namespace {
 
+void add_spring(SpringPair& pair, double rest)
+{
+    pair.rest[pair.count] = rest;
+    pair.inverse_rest[pair.count] = 1 / rest;
+    if (pair.count++ == 0) {
+        pair.rest[1] = rest;
+    }
+}
+
+SpringPair single_spring(int a, int b, double rest)
+{
+    SpringPair pair{a, b, 0, {0, 0}, {0, 0}};
+    add_spring(pair, rest);
+    return pair;
+}
+
 void add_edge(EmbeddingTerms& terms, const Surface& surface, const Element& element, Edge e)
 {
     SpringPair pair;
     for (int side_of_edge = 0; side_of_edge < 2; ++side_of_edge) {
         const Halfedge h = surface.halfedge_handle(e, side_of_edge);
         if (!surface.is_boundary(h)) {
-            pair.rest[pair.count++] = side_length(element, side(surface, h)) / element.la;
             pair.a = surface.from_vertex_handle(h).idx();
             pair.b = surface.to_vertex_handle(h).idx();
+            add_spring(pair, side_length(element, side(surface, h)) / element.la);
         }
     }
     terms.springs.push_back(pair);
@@ -26,8 +42,8 @@ void add_diagonals(EmbeddingTerms& terms, const Surface& surface, const Element&
     const bool first_is_acute = at_first < pi / 2;
     const double from_first = first_is_acute ? long_diagonal(element) : short_diagonal(element);
     const double other = first_is_acute ? short_diagonal(element) : long_diagonal(element);
-    terms.springs.push_back({q[0], q[2], 1, {from_first / element.la, 0}});
-    terms.springs.push_back({q[1], q[3], 1, {other / element.la, 0}});
+    terms.springs.push_back(single_spring(q[0], q[2], from_first / element.la));
+    terms.springs.push_back(single_spring(q[1], q[3], other / element.la));
 }
 
 void add_hinges(EmbeddingTerms& terms, const Surface& surface, Edge e)

@@ -16,7 +16,8 @@ struct SpringPair
     int a = 0;
     int b = 0;
     int count = 0;
-    std::array<double, 2> rest = {0, 0}; //!< in units of la
+    std::array<double, 2> rest = {0, 0};         //!< in units of la; the second repeats the first when there is one
+    std::array<double, 2> inverse_rest = {0, 0}; //!< 1 / rest; 0 when there is no second one
 };
 
 //! \brief One end of an interior edge: {x0, x1, left apex, right apex} as in HingePoints.

@@ -1,58 +1,426 @@
 #include "core/form/linear_solver.h"
 
-#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstring>
+#include <numeric>
+
+#include "core/expected.h"
+#include "core/form/dense_kernels.h"
+#include "core/form/elimination_tree.h"
+#include "core/form/parallel.h"
 
 namespace rhombloom {
 
-using SparseMatrix = Eigen::SparseMatrix<double>;
+namespace {
+
+constexpr double smallest_parallel_work = 2e7; // multiplications; below, starting a thread costs more than it brings
+constexpr int smallest_shared_update = 24;     // strips of an update matrix that two threads share
+
+// Sizes of a front in scalars; its panel holds the pivot strips, then the strips below.
+struct Shape
+{
+    int columns;
+    int rows;
+    int diagonal_strips;
+    int strips;
+
+    explicit Shape(const Front& front)
+        : columns(3 * front.pivots()), rows(3 * static_cast<int>(front.rows.size())),
+          diagonal_strips(strip_count(columns)), strips(diagonal_strips + strip_count(rows))
+    {
+    }
+
+    std::size_t panel_size() const { return std::size_t(strip) * columns * strips; }
+
+    std::size_t update_size() const
+    {
+        const std::size_t below = strips - diagonal_strips;
+        return std::size_t(strip) * strip / 2 * below * (below + 1);
+    }
+
+    double work() const
+    {
+        double sum = 0;
+        for (int k = 0; k < columns; ++k) {
+            const double length = columns - k + rows;
+            sum += length * length / 2;
+        }
+        return sum;
+    }
+};
+
+// Offsets of a scalar row: entry (i, k) lies at row_offset + strip * k.
+std::size_t panel_row(const Shape& shape, int i)
+{
+    return std::size_t(strip) * shape.columns * (i / strip) + i % strip;
+}
+
+std::size_t update_row(int i)
+{
+    const std::size_t s = i / strip;
+    return std::size_t(strip) * strip / 2 * s * (s + 1) + i % strip;
+}
+
+// Where a block of the matrix goes: the same place of its front's panel in every factorisation.
+struct BlockTarget
+{
+    std::size_t block;
+    std::array<std::size_t, 3> row; // offsets of its scalar rows at its first column
+    bool transposed;
+    bool diagonal;
+};
+
+// A contiguous range of fronts factored in one go, with the stack of its pending updates.
+struct Task
+{
+    int first = 0;
+    int last = 0;
+    std::vector<double> stack;
+};
+
+} // namespace
 
 struct LinearSolver::Factor
 {
-    SparseMatrix matrix;
-    Eigen::SimplicialLLT<SparseMatrix> llt;
+    EliminationTree tree;
+    std::vector<Shape> shapes;
+    std::vector<std::size_t> panel_offset;
+    std::vector<BlockTarget> targets;
+    std::vector<std::size_t> first_target; // per front
+    std::vector<std::vector<int>> children;
+    std::vector<Task> subtrees; // independent of each other
+    Task top;                   // the fronts that are in no subtree, in order
+    std::vector<int> top_fronts;
+    std::vector<double> panels;
+    std::vector<double*> update; // per front, while its parent needs it
+    int threads = 1;
+
+    explicit Factor(const BlockMatrix& matrix, int thread_count);
+    void find_targets(const BlockMatrix& matrix);
+    void split_into_tasks();
+    std::size_t stack_size(const std::vector<int>& fronts) const;
+
+    bool factor_fronts(const BlockMatrix& matrix, double shift, const std::vector<int>& fronts, double* stack,
+                       int helpers, const std::atomic<bool>& failed);
+    void assemble_matrix(const BlockMatrix& matrix, double shift, int f);
+    void assemble_child(int f, int child, double* update_matrix);
+    void subtract_update(int f, double* update_matrix, int helpers) const;
+    double total_work() const;
+
+    void gather(const Eigen::VectorXd& y, std::size_t f, std::vector<double>& local) const;
+    void solve_forward(Eigen::VectorXd& y, std::size_t f, std::vector<double>& local) const;
+    void solve_backward(Eigen::VectorXd& y, std::size_t f, std::vector<double>& local,
+                        std::vector<double>& scratch) const;
 };
 
 namespace {
 
-SparseMatrix expand(const BlockMatrix& matrix, double shift)
+std::vector<int> range(int first, int last)
 {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(matrix.value.size());
-    for (int j = 0; j < matrix.size; ++j) {
-        for (int k = matrix.start[j]; k < matrix.start[j + 1]; ++k) {
-            for (int column = 0; column < 3; ++column) {
-                for (int row = 0; row < 3; ++row) {
-                    const int i = 3 * matrix.row[k] + row;
-                    const double value = matrix.value[9 * k + 3 * column + row];
-                    entries.emplace_back(i, 3 * j + column, i == 3 * j + column ? value + shift : value);
-                }
-            }
-        }
-    }
-    SparseMatrix expanded(3 * matrix.size, 3 * matrix.size);
-    expanded.setFromTriplets(entries.begin(), entries.end());
-    return expanded;
+    std::vector<int> numbers(last - first);
+    std::iota(numbers.begin(), numbers.end(), first);
+    return numbers;
 }
 
 } // namespace
 
-LinearSolver::LinearSolver(const BlockMatrix& pattern) : factor_(std::make_unique<Factor>())
+LinearSolver::Factor::Factor(const BlockMatrix& matrix, int thread_count)
+    : tree(elimination_tree(matrix)), threads(thread_count)
 {
-    factor_->llt.analyzePattern(expand(pattern, 1));
+    std::size_t size = 0;
+    children.resize(tree.fronts.size());
+    for (std::size_t f = 0; f < tree.fronts.size(); ++f) {
+        shapes.emplace_back(tree.fronts[f]);
+        panel_offset.push_back(size);
+        size += shapes.back().panel_size();
+        if (tree.fronts[f].parent >= 0) {
+            children[tree.fronts[f].parent].push_back(static_cast<int>(f));
+        }
+    }
+    panels.resize(size);
+    update.assign(tree.fronts.size(), nullptr);
+    find_targets(matrix);
+    split_into_tasks();
+}
+
+void LinearSolver::Factor::find_targets(const BlockMatrix& matrix)
+{
+    std::vector<std::vector<std::pair<int, std::size_t>>> blocks_of_column(matrix.size); // (position of row, block)
+    std::vector<bool> transposed(matrix.row.size());
+    for (int j = 0; j < matrix.size; ++j) {
+        for (int k = matrix.start[j]; k < matrix.start[j + 1]; ++k) {
+            const int a = tree.position[matrix.row[k]];
+            const int b = tree.position[j];
+            transposed[k] = a < b;
+            blocks_of_column[std::min(a, b)].emplace_back(std::max(a, b), k);
+        }
+    }
+    for (std::size_t f = 0; f < tree.fronts.size(); ++f) {
+        const Front& front = tree.fronts[f];
+        first_target.push_back(targets.size());
+        for (int j = front.first; j < front.last; ++j) {
+            for (const auto& [row, block] : blocks_of_column[j]) {
+                int local = 3 * (row - front.first);
+                if (row >= front.last) {
+                    const auto found = std::lower_bound(front.rows.begin(), front.rows.end(), row);
+                    local = strip * shapes[f].diagonal_strips + 3 * static_cast<int>(found - front.rows.begin());
+                }
+                const std::size_t column = panel_offset[f] + std::size_t(strip) * 3 * (j - front.first);
+                targets.push_back({block,
+                                   {column + panel_row(shapes[f], local), column + panel_row(shapes[f], local + 1),
+                                    column + panel_row(shapes[f], local + 2)},
+                                   transposed[block],
+                                   row == j});
+            }
+        }
+    }
+    first_target.push_back(targets.size());
+}
+
+// Subtrees of at most a quarter of a thread's share become tasks of their own.
+void LinearSolver::Factor::split_into_tasks()
+{
+    const int n = static_cast<int>(tree.fronts.size());
+    std::vector<double> work(n);
+    std::vector<int> first(n); // of the subtree
+    for (int f = 0; f < n; ++f) {
+        work[f] = shapes[f].work();
+        first[f] = children[f].empty() ? f : first[children[f].front()];
+        for (const int child : children[f]) {
+            work[f] += work[child];
+        }
+    }
+    const double total = total_work();
+    const double largest = threads > 1 && total > smallest_parallel_work ? total / (4 * threads) : 2 * total;
+    for (int f = n - 1; f >= 0;) {
+        if (work[f] > largest) {
+            top_fronts.push_back(f--);
+        } else {
+            subtrees.push_back({first[f], f + 1, {}});
+            f = first[f] - 1;
+        }
+    }
+    std::reverse(top_fronts.begin(), top_fronts.end());
+    for (Task& task : subtrees) {
+        task.stack.resize(stack_size(range(task.first, task.last)));
+    }
+    top.stack.resize(stack_size(top_fronts));
+}
+
+// Largest fill of the stack: a front's update is built above those of its children, then moved down onto them.
+std::size_t LinearSolver::Factor::stack_size(const std::vector<int>& fronts) const
+{
+    std::size_t now = 0;
+    std::size_t peak = 0;
+    std::vector<bool> inside(tree.fronts.size(), false);
+    for (const int f : fronts) {
+        inside[f] = true;
+        now += shapes[f].update_size();
+        peak = std::max(peak, now);
+        for (const int child : children[f]) {
+            now -= inside[child] ? shapes[child].update_size() : 0;
+        }
+    }
+    return peak;
+}
+
+double LinearSolver::Factor::total_work() const
+{
+    return std::accumulate(shapes.begin(), shapes.end(), 0.0,
+                           [](double sum, const Shape& shape) { return sum + shape.work(); });
+}
+
+void LinearSolver::Factor::assemble_matrix(const BlockMatrix& matrix, double shift, int f)
+{
+    double* panel = panels.data();
+    std::memset(panel + panel_offset[f], 0, sizeof(double) * shapes[f].panel_size());
+    for (std::size_t t = first_target[f]; t < first_target[f + 1]; ++t) {
+        const BlockTarget& target = targets[t];
+        const double* block = &matrix.value[9 * target.block];
+        for (int i = 0; i < 3; ++i) {
+            double* row = panel + target.row[i];
+            for (int j = 0; j < 3; ++j) {
+                row[strip * j] = target.transposed ? block[3 * i + j] : block[3 * j + i];
+            }
+            row[strip * i] += target.diagonal ? shift : 0;
+        }
+    }
+}
+
+// Extend-add: the child's update goes to the front's pivot columns and to its own update.
+void LinearSolver::Factor::assemble_child(int f, int child, double* update_matrix)
+{
+    const Front& front = tree.fronts[f];
+    const std::vector<int>& rows = tree.fronts[child].rows;
+    const int n = 3 * static_cast<int>(rows.size());
+    std::vector<double*> in_panel(n);
+    std::vector<double*> in_update(n);
+    std::vector<int> column(n);
+    int pivot_columns = 0;
+    std::size_t k = 0;
+    for (int b = 0; b < static_cast<int>(rows.size()); ++b) {
+        const bool pivot = rows[b] < front.last;
+        while (!pivot && front.rows[k] != rows[b]) {
+            ++k;
+        }
+        for (int i = 0; i < 3; ++i) {
+            const int r = 3 * b + i;
+            column[r] = pivot ? 3 * (rows[b] - front.first) + i : 3 * static_cast<int>(k) + i;
+            const int local = pivot ? column[r] : strip * shapes[f].diagonal_strips + column[r];
+            in_panel[r] = panels.data() + panel_offset[f] + panel_row(shapes[f], local);
+            in_update[r] = pivot ? nullptr : update_matrix + update_row(column[r]);
+            pivot_columns += pivot;
+        }
+    }
+    const double* source = update[child];
+    for (int s = 0; strip * s < n; ++s) {
+        const int end = std::min(strip * (s + 1), n);
+        for (int r = strip * s; r < end; ++r) {
+            const double* from = source + update_row(r);
+            const int last_pivot = std::min(pivot_columns, r + 1);
+            for (int j = 0; j < last_pivot; ++j) {
+                in_panel[r][strip * column[j]] += from[strip * j];
+            }
+            for (int j = pivot_columns; j <= r; ++j) {
+                in_update[r][strip * column[j]] += from[strip * j];
+            }
+        }
+    }
+}
+
+void LinearSolver::Factor::subtract_update(int f, double* update_matrix, int helpers) const
+{
+    const Shape& shape = shapes[f];
+    const int strips = shape.strips - shape.diagonal_strips;
+    const double* below = panels.data() + panel_offset[f] + std::size_t(strip) * shape.columns * shape.diagonal_strips;
+    if (helpers == 1 || strips < smallest_shared_update) {
+        dense_kernels().update(below, shape.columns, update_matrix, 0, strips);
+        return;
+    }
+    const int chunks = strips / 8;
+    parallel_tasks(helpers, chunks, [&](int chunk) {
+        const int c = chunks - 1 - chunk; // the longest first
+        dense_kernels().update(below, shape.columns, update_matrix, strips * c / chunks, strips * (c + 1) / chunks);
+    });
+}
+
+bool LinearSolver::Factor::factor_fronts(const BlockMatrix& matrix, double shift, const std::vector<int>& fronts,
+                                         double* stack, int helpers, const std::atomic<bool>& failed)
+{
+    double* stack_top = stack;
+    for (const int f : fronts) {
+        if (failed) {
+            return false;
+        }
+        const Shape& shape = shapes[f];
+        double* own = stack_top;
+        double* bottom = own;
+        std::memset(own, 0, sizeof(double) * shape.update_size());
+        assemble_matrix(matrix, shift, f);
+        for (const int child : children[f]) {
+            assemble_child(f, child, own);
+            if (update[child] >= stack && update[child] < own) {
+                bottom = std::min(bottom, update[child]);
+            }
+        }
+        double* panel = panels.data() + panel_offset[f];
+        if (!dense_kernels().factor(panel, shape.columns, shape.diagonal_strips, shape.strips)) {
+            return false;
+        }
+        subtract_update(f, own, helpers);
+        std::memmove(bottom, own, sizeof(double) * shape.update_size());
+        update[f] = bottom;
+        stack_top = bottom + shape.update_size();
+    }
+    return true;
+}
+
+LinearSolver::LinearSolver(const BlockMatrix& matrix, int threads) : factor_(std::make_unique<Factor>(matrix, threads))
+{
 }
 
 LinearSolver::~LinearSolver() = default;
+LinearSolver::LinearSolver(LinearSolver&&) noexcept = default;
+LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 
 bool LinearSolver::factor(const BlockMatrix& matrix, double shift)
 {
-    factor_->matrix = expand(matrix, shift);
-    factor_->llt.factorize(factor_->matrix);
-    return factor_->llt.info() == Eigen::Success;
+    Factor& f = *factor_;
+    std::atomic<bool> failed = false;
+    parallel_tasks(f.threads, static_cast<int>(f.subtrees.size()), [&](int k) {
+        Task& task = f.subtrees[k];
+        if (!f.factor_fronts(matrix, shift, range(task.first, task.last), task.stack.data(), 1, failed)) {
+            failed = true;
+        }
+    });
+    return !failed && f.factor_fronts(matrix, shift, f.top_fronts, f.top.stack.data(), f.threads, failed);
+}
+
+// A front's pivots and the rows below it, in strips.
+void LinearSolver::Factor::gather(const Eigen::VectorXd& y, std::size_t f, std::vector<double>& local) const
+{
+    const Front& front = tree.fronts[f];
+    local.assign(std::size_t(strip) * shapes[f].strips, 0.0);
+    std::copy_n(y.data() + 3 * front.first, shapes[f].columns, local.data());
+    double* below = local.data() + strip * shapes[f].diagonal_strips;
+    for (const int row : front.rows) {
+        below = std::copy_n(y.data() + 3 * row, 3, below);
+    }
+}
+
+void LinearSolver::Factor::solve_forward(Eigen::VectorXd& y, std::size_t f, std::vector<double>& local) const
+{
+    const Shape& shape = shapes[f];
+    gather(y, f, local);
+    dense_kernels().solve_forward(&panels[panel_offset[f]], shape.columns, shape.diagonal_strips, shape.strips,
+                                  local.data());
+    std::copy_n(local.data(), shape.columns, y.data() + 3 * tree.fronts[f].first);
+    const double* below = local.data() + strip * shape.diagonal_strips;
+    for (const int row : tree.fronts[f].rows) {
+        std::copy_n(below, 3, y.data() + 3 * row);
+        below += 3;
+    }
+}
+
+void LinearSolver::Factor::solve_backward(Eigen::VectorXd& y, std::size_t f, std::vector<double>& local,
+                                          std::vector<double>& scratch) const
+{
+    const Shape& shape = shapes[f];
+    gather(y, f, local);
+    scratch.resize(std::size_t(strip) * shape.columns);
+    dense_kernels().solve_backward(&panels[panel_offset[f]], shape.columns, shape.diagonal_strips, shape.strips,
+                                   local.data(), scratch.data());
+    std::copy_n(local.data(), shape.columns, y.data() + 3 * tree.fronts[f].first);
 }
 
 Eigen::VectorXd LinearSolver::solve(const Eigen::VectorXd& right_side) const
 {
-    return factor_->llt.solve(right_side);
+    const Factor& f = *factor_;
+    const std::size_t blocks = f.tree.order.size();
+    Eigen::VectorXd y(3 * blocks);
+    for (std::size_t k = 0; k < blocks; ++k) {
+        y.segment<3>(3 * k) = right_side.segment<3>(3 * f.tree.order[k]);
+    }
+    std::vector<double> local;
+    std::vector<double> scratch;
+    for (std::size_t k = 0; k < f.tree.fronts.size(); ++k) {
+        f.solve_forward(y, k, local);
+    }
+    for (std::size_t k = f.tree.fronts.size(); k-- > 0;) {
+        f.solve_backward(y, k, local, scratch);
+    }
+    Eigen::VectorXd x(3 * blocks);
+    for (std::size_t k = 0; k < blocks; ++k) {
+        x.segment<3>(3 * f.tree.order[k]) = y.segment<3>(3 * k);
+    }
+    return x;
+}
+
+double LinearSolver::work() const
+{
+    return factor_->total_work();
 }
 
 } // namespace rhombloom

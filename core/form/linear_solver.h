@@ -7,19 +7,26 @@
 namespace rhombloom {
 
 //! \brief Cholesky factorisation of symmetric block matrices that share one pattern.
+//! \details Multifrontal (Duff and Reid 1983; Liu 1992): the factor is a tree of dense fronts, factored by
+//! DenseKernels, subtrees in parallel. Every entry is summed in the same order whatever the number of threads. Own code
+//! because the fast alternative, CHOLMOD's supernodal module, is under the GPL, and is not faster.
 class LinearSolver
 {
 public:
-    explicit LinearSolver(const BlockMatrix& pattern);
+    //! \brief Order and analyse the pattern of \p matrix once for all factorisations.
+    explicit LinearSolver(const BlockMatrix& matrix, int threads = 1);
     ~LinearSolver();
-    LinearSolver(const LinearSolver&) = delete;
-    LinearSolver& operator=(const LinearSolver&) = delete;
+    LinearSolver(LinearSolver&&) noexcept;
+    LinearSolver& operator=(LinearSolver&&) noexcept;
 
     //! \brief Factor \p matrix + \p shift * identity; false when that is not positive definite.
     bool factor(const BlockMatrix& matrix, double shift);
 
-    //! \brief Solve with the last factorisation that succeeded.
+    //! \brief Solve with the last factorisation, which must have succeeded.
     Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const;
+
+    //! \brief Multiplications of one factorisation.
+    double work() const;
 
 private:
     struct Factor;

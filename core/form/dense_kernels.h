@@ -1,0 +1,40 @@
+#pragma once
+
+namespace rhombloom {
+
+//! \brief Rows of a dense front are stored in strips of eight: entry (i, k) of a matrix with K columns lies at
+//! `8 * K * (i / 8) + 8 * k + i % 8`. The last strip is padded with rows of zeros.
+inline constexpr int strip = 8;
+
+//! \brief Number of strips that \p rows rows take.
+constexpr int strip_count(int rows)
+{
+    return (rows + strip - 1) / strip;
+}
+
+//! \brief The inner loops of the multifrontal factorisation, for one instruction set.
+//! \details Every entry is the same sequence of multiplications and subtractions whatever the vector length (and there
+//! are no fused operations), so all machines return the same bytes.
+struct DenseKernels
+{
+    //! \brief Cholesky factor of the first \p columns columns of a front. The panel has \p diagonal_strips strips with
+    //! the pivot rows, then the rows below; only the lower triangle counts. False when a pivot is not positive.
+    bool (*factor)(double* panel, int columns, int diagonal_strips, int strips);
+
+    //! \brief update -= below * below^T for the strips [first, last) of the update's packed lower triangle, whose strip
+    //! s has 8 * (s + 1) columns and begins at 32 * s * (s + 1).
+    void (*update)(const double* below, int columns, double* update, int first, int last);
+
+    //! \brief w := L^-1 w for the pivot rows of \p w, then w -= L w for the rows below,
+    //! which must hold what is to be subtracted from.
+    void (*solve_forward)(const double* panel, int columns, int diagonal_strips, int strips, double* w);
+
+    //! \brief The transposed step: the pivot rows of \p w from the rows below. \p scratch: 8 * columns numbers.
+    void (*solve_backward)(const double* panel, int columns, int diagonal_strips, int strips, double* w,
+                           double* scratch);
+};
+
+//! \brief The fastest kernels that this machine can run.
+const DenseKernels& dense_kernels();
+
+} // namespace rhombloom

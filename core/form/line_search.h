@@ -1,0 +1,31 @@
+#pragma once
+
+#include "core/form/embedding_energy.h"
+
+namespace rhombloom {
+
+//! \brief A point of the minimisation with its energy and gradient, in units of la.
+struct Iterate
+{
+    Eigen::VectorXd x;
+    Eigen::VectorXd gradient;
+    double energy = 0;
+
+    double gradient_norm() const { return gradient.lpNorm<Eigen::Infinity>(); }
+};
+
+Iterate iterate_at(const EmbeddingTerms& terms, Eigen::VectorXd x);
+
+struct LineSearchOptions
+{
+    double first_step = 1; //!< share of the direction
+    double max_move = 2;   //!< la: no vertex moves farther in one step
+};
+
+//! \brief Go along \p direction until the energy has decreased enough (Armijo); false, and nothing moved, when it does
+//! not.
+//! \details Where the decrease to be expected drowns in roundoff, a smaller gradient counts instead.
+bool line_search(const EmbeddingTerms& terms, Iterate& iterate, const Eigen::VectorXd& direction,
+                 const LineSearchOptions& options);
+
+} // namespace rhombloom
