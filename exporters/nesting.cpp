@@ -138,7 +138,7 @@ Room room_of(double width, double height, double margin)
 Expected<void> check_fits(const Piece& piece, const NestOptions& options)
 {
     const Room room = room_of(options.sheet_width, options.sheet_height, options.margin);
-    if (fits(piece, room)) {
+    if (!single_copy(piece, room).empty()) {
         return {};
     }
     const Box box = box_of(piece.hull);
@@ -147,6 +147,34 @@ Expected<void> check_fits(const Piece& piece, const NestOptions& options)
                   " as drawn and fits in no allowed direction on a sheet of " +
                   size_text(options.sheet_width, options.sheet_height) + " with a margin of " +
                   to_text(options.margin) + " mm; take a larger sheet, a smaller margin or a smaller outline");
+}
+
+//! \return how many copies the offcut took
+int fill_remnant(const Piece& piece, const NestOptions& options, Nesting& nesting)
+{
+    const Vec2 size = *options.remnant;
+    const Room room = room_of(size.x(), size.y(), options.margin);
+    const Layout full = densest_layout(piece, room);
+    if (full.empty()) {
+        return 0;
+    }
+    const int taken = std::min(options.count, static_cast<int>(full.size()));
+    Sheet sheet = sheet_of(packed_layout(piece, room, full, taken), size.x(), size.y(), piece.hull, options);
+    sheet.remnant = true;
+    nesting.sheets.push_back(std::move(sheet));
+    return taken;
+}
+
+void fill_sheets(const Piece& piece, const NestOptions& options, int left, Nesting& nesting)
+{
+    const double width = options.sheet_width, height = options.sheet_height;
+    const Room room = room_of(width, height, options.margin);
+    const Layout full = densest_layout(piece, room);
+    nesting.per_sheet = static_cast<int>(full.size());
+    for (; left > 0; left -= nesting.per_sheet) {
+        Layout layout = packed_layout(piece, room, full, std::min(left, nesting.per_sheet));
+        nesting.sheets.push_back(sheet_of(std::move(layout), width, height, piece.hull, options));
+    }
 }
 
 } // namespace
@@ -172,21 +200,9 @@ Expected<Nesting> nest(const std::vector<Vec2>& outline, const NestOptions& opti
     Nesting nesting;
     int left = options.count;
     if (options.remnant) {
-        const Room room = room_of(options.remnant->x(), options.remnant->y(), options.margin);
-        std::vector<Placement> some = fits(piece, room) ? densest_layout(piece, room, left) : std::vector<Placement>{};
-        left -= static_cast<int>(some.size());
-        nesting.sheets.push_back(
-            sheet_of(std::move(some), options.remnant->x(), options.remnant->y(), piece.hull, options));
-        nesting.sheets.back().remnant = true;
+        left -= fill_remnant(piece, options, nesting);
     }
-    const Room room = room_of(options.sheet_width, options.sheet_height, options.margin);
-    const std::vector<Placement> full = densest_layout(piece, room, options.count);
-    nesting.per_sheet = static_cast<int>(full.size());
-    for (; left > 0; left -= nesting.per_sheet) {
-        std::vector<Placement> some = left >= nesting.per_sheet ? full : packed_layout(piece, room, full, left);
-        nesting.sheets.push_back(
-            sheet_of(std::move(some), options.sheet_width, options.sheet_height, piece.hull, options));
-    }
+    fill_sheets(piece, options, left, nesting);
     nesting.utilisation = utilisation_of(nesting.sheets, signed_area(polygon));
     return nesting;
 }

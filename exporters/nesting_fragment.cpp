@@ -84,15 +84,24 @@ struct Window
     double bottom = 0;
 };
 
-//! The lower edge that takes most; \p seen is sorted by height.
+//! The lower edge that takes most: each kind of copy has its own band above it.
 Window best_window(const std::vector<Candidate>& seen, const std::vector<Corner>& corners)
 {
+    std::vector<std::vector<double>> heights(corners.size());
+    for (const Candidate& c : seen) {
+        heights[c.member].push_back(c.corner.y());
+    }
+    for (std::vector<double>& h : heights) {
+        std::sort(h.begin(), h.end());
+    }
     Window best;
-    for (std::size_t i = 0; i < seen.size() && seen.size() - i > best.count; ++i) {
-        const double bottom = seen[i].corner.y();
+    for (const Candidate& c : seen) {
+        const double bottom = c.corner.y();
         std::size_t count = 0;
-        for (const Candidate& c : seen) {
-            count += in_band(c, corners, bottom);
+        for (std::size_t m = 0; m < corners.size(); ++m) {
+            const auto first = std::lower_bound(heights[m].begin(), heights[m].end(), bottom - rounding);
+            const auto last = std::upper_bound(first, heights[m].end(), bottom + corners[m].range.y() + rounding);
+            count += static_cast<std::size_t>(last - first);
         }
         if (count > best.count) {
             best = {count, bottom};
@@ -108,7 +117,8 @@ Box extents(const Polygon& outline, const Orientation& orientation)
     return box_of(oriented(outline, orientation));
 }
 
-std::vector<Placement> fragment(const Pattern& pattern, double angle, const Polygon& outline, const Room& room)
+std::vector<Placement> fragment(const Pattern& pattern, double angle, const Polygon& outline, const Room& room,
+                                std::size_t at_least)
 {
     const std::vector<Corner> corners = corners_of(pattern, angle, outline, room);
     const Turn t = turn(angle);
@@ -117,10 +127,8 @@ std::vector<Placement> fragment(const Pattern& pattern, double angle, const Poly
     for (const Corner& first : corners) {
         std::vector<Candidate> seen;
         collect(corners, lattice, first.at, seen);
-        std::stable_sort(seen.begin(), seen.end(),
-                         [](const Candidate& a, const Candidate& b) { return a.corner.y() < b.corner.y(); });
         const Window window = best_window(seen, corners);
-        if (window.count <= best.size()) {
+        if (window.count <= best.size() || window.count < at_least) {
             continue;
         }
         best.clear();

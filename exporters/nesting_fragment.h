@@ -35,7 +35,9 @@ Box extents(const Polygon& outline, const Orientation& orientation);
 
 //! \brief The most copies of \p pattern turned by \p angle that fit into \p room, over all shifts of the pattern.
 //! \details Exact: some copy touches the left edge and some copy the lower edge, and all such pairs are tried.
-//! \param outline  the convex hull of the finished outline
-std::vector<Placement> fragment(const Pattern& pattern, double angle, const Polygon& outline, const Room& room);
+//! \param outline   the convex hull of the finished outline
+//! \param at_least  return nothing when fewer fit
+std::vector<Placement> fragment(const Pattern& pattern, double angle, const Polygon& outline, const Room& room,
+                                std::size_t at_least = 1);
 
 } // namespace rhombloom::nesting

@@ -9,84 +9,123 @@ namespace rhombloom::nesting {
 
 namespace {
 
-//! Rounded corners stray so far from the true offset (mm), and simplified boundaries at most so far.
-constexpr double corner_slack = 0.01;
-constexpr double simplification = 0.03;
-
-std::vector<Placement> best_fragment(const Piece& piece, const Room& room)
+Vec2 upper_right(const Placement& placement, const Piece& piece)
 {
-    std::vector<Placement> best;
-    const std::vector<Lattice> found = lattices(piece.self, {});
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const Pattern pattern{found[i]};
-        for (const double angle : angles_for(pattern, piece.grain, i < 40 ? 180 : 0)) {
-            std::vector<Placement> layout = fragment(pattern, angle, piece.hull, room);
-            if (layout.size() > best.size()) {
-                best = std::move(layout);
+    return extents(piece.hull, {placement.angle, placement.mirrored}).max + placement.offset;
+}
+
+//! The copies that end lowest (\p axis 1) or furthest left (0).
+Layout first_copies(const Piece& piece, const Layout& full, int count, int axis)
+{
+    Layout layout = full;
+    std::stable_sort(layout.begin(), layout.end(), [&](const Placement& a, const Placement& b) {
+        return upper_right(a, piece)[axis] < upper_right(b, piece)[axis];
+    });
+    layout.resize(static_cast<std::size_t>(count));
+    return layout;
+}
+
+double extent_of(const Layout& layout, const Piece& piece, int axis)
+{
+    double extent = 0;
+    for (const Placement& placement : layout) {
+        extent = std::max(extent, upper_right(placement, piece)[axis]);
+    }
+    return extent;
+}
+
+Room cut_to(const Room& room, double extent, int axis)
+{
+    return axis == 1 ? Room{room.width, extent} : Room{extent, room.height};
+}
+
+//! Shrinks the room of one trial as long as \p best's number of copies fits.
+void shrink(const Trial& trial, const Piece& piece, const Room& room, int axis, Layout& best)
+{
+    constexpr double resolution = 0.05;
+    double low = 0, high = extent_of(best, piece, axis);
+    double probe = high - resolution;
+    while (probe > low) {
+        const Room cut = cut_to(room, probe, axis);
+        Layout layout = fragment(*trial.pattern, trial.angle, piece.hull, cut, best.size());
+        if (layout.empty()) {
+            low = probe;
+            if (low >= high - resolution) {
+                return;
             }
+        } else {
+            layout = first_copies(piece, layout, static_cast<int>(best.size()), axis);
+            high = extent_of(layout, piece, axis);
+            best = std::move(layout);
+        }
+        probe = high - low > 2 * resolution ? 0.5 * (low + high) : high - resolution;
+    }
+}
+
+Layout packed_along(const Piece& piece, const Room& room, const Layout& full, int count, int axis)
+{
+    Layout best = first_copies(piece, full, count, axis);
+    for (const Trial& trial : trials_for(piece, room)) {
+        shrink(trial, piece, room, axis, best);
+    }
+    return best;
+}
+
+//! Angles at which a copy that nearly fills the room may fit: quarter turns, edges along a side, small steps.
+std::vector<double> fitting_angles(const Piece& piece)
+{
+    std::vector<double> angles = {0};
+    if (piece.grain != Grain::Any) {
+        return angles;
+    }
+    angles.push_back(pi / 2);
+    for (std::size_t i = 0; i < piece.hull.size(); ++i) {
+        const Vec2 edge = piece.hull[(i + 1) % piece.hull.size()] - piece.hull[i];
+        angles.push_back(-std::atan2(edge.y(), edge.x()));
+        angles.push_back(angles.back() + pi / 2);
+    }
+    constexpr int steps = 3600;
+    for (int i = 0; i < steps; ++i) {
+        angles.push_back(pi * i / steps);
+    }
+    return angles;
+}
+
+} // namespace
+
+Layout single_copy(const Piece& piece, const Room& room)
+{
+    for (const double angle : fitting_angles(piece)) {
+        const Box box = extents(piece.hull, {angle, false});
+        const Vec2 size = box.max - box.min;
+        if (size.x() <= room.width + 1e-9 && size.y() <= room.height + 1e-9) {
+            return {{angle, false, -box.min}};
+        }
+    }
+    return {};
+}
+
+Layout densest_layout(const Piece& piece, const Room& room)
+{
+    Layout best = single_copy(piece, room);
+    for (const Trial& trial : trials_for(piece, room)) {
+        Layout layout = fragment(*trial.pattern, trial.angle, piece.hull, room, best.size() + 1);
+        if (!layout.empty()) {
+            best = std::move(layout);
         }
     }
     return best;
 }
 
-double top_of(const Placement& placement, const Piece& piece)
+Layout packed_layout(const Piece& piece, const Room& room, const Layout& full, int count)
 {
-    return extents(piece.hull, {placement.angle, placement.mirrored}).max.y() + placement.offset.y();
-}
-
-} // namespace
-
-Piece piece_of(const Polygon& outline, const NestOptions& options)
-{
-    Piece piece;
-    piece.hull = convex_hull(outline);
-    piece.inflated = inflated(outline, options.spacing / 2, corner_slack);
-    piece.inflated = simplified_outward(piece.inflated, simplification);
-    piece.self = no_fit(piece.inflated, piece.inflated);
-    piece.grain = options.grain;
-    piece.mirror = options.mirror;
-    return piece;
-}
-
-std::vector<double> angles_for(const Pattern& pattern, Grain grain, int count)
-{
-    if (grain != Grain::Any) {
-        return {0};
+    if (count == std::ssize(full)) {
+        return full;
     }
-    std::vector<double> angles = {0, pi / 2};
-    const Lattice& l = pattern.lattice;
-    for (const Vec2& v : {l.v1, l.v2, Vec2(l.v1 + l.v2), Vec2(l.v1 - l.v2)}) {
-        const double along = -std::atan2(v.y(), v.x());
-        angles.push_back(along);
-        angles.push_back(along + pi / 2);
-    }
-    for (int i = 0; i < count; ++i) {
-        angles.push_back(pi * i / count);
-    }
-    return angles;
-}
-
-bool fits(const Piece& piece, const Room& room)
-{
-    Pattern single{{Vec2(4 * piece.self.reach, 0), Vec2(0, 4 * piece.self.reach)}};
-    const auto angles = angles_for(single, piece.grain, 720);
-    return std::any_of(angles.begin(), angles.end(),
-                       [&](double angle) { return !fragment(single, angle, piece.hull, room).empty(); });
-}
-
-std::vector<Placement> densest_layout(const Piece& piece, const Room& room, int wanted)
-{
-    std::vector<Placement> layout = best_fragment(piece, room);
-    return std::ssize(layout) > wanted ? packed_layout(piece, room, layout, wanted) : layout;
-}
-
-std::vector<Placement> packed_layout(const Piece& piece, const Room&, const std::vector<Placement>& full, int count)
-{
-    std::vector<Placement> layout = full;
-    std::stable_sort(layout.begin(), layout.end(),
-                     [&](const Placement& a, const Placement& b) { return top_of(a, piece) < top_of(b, piece); });
-    layout.resize(static_cast<std::size_t>(count));
-    return layout;
+    const Layout low = packed_along(piece, room, full, count, 1), left = packed_along(piece, room, full, count, 0);
+    const double above = room.width * (room.height - extent_of(low, piece, 1));
+    const double beside = (room.width - extent_of(left, piece, 0)) * room.height;
+    return above >= beside ? low : left;
 }
 
 } // namespace rhombloom::nesting

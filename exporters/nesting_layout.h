@@ -4,7 +4,9 @@
 
 namespace rhombloom::nesting {
 
-//! \brief The outline prepared for the search.
+using Layout = std::vector<Placement>;
+
+//! \brief The outline prepared for the search, with the patterns it can be repeated in.
 struct Piece
 {
     Polygon hull;     //!< of the finished outline: what must stay inside the margins
@@ -12,21 +14,28 @@ struct Piece
     NoFit self;       //!< offsets at which a copy overlaps an equally turned one
     Grain grain = Grain::Any;
     Mirror mirror = Mirror::Never;
+    std::vector<Pattern> patterns; //!< densest first
 };
 
 Piece piece_of(const Polygon& outline, const NestOptions& options);
 
-//! \brief Angles to try for a pattern: those that lay one of its vectors along a side, then \p count even steps.
-std::vector<double> angles_for(const Pattern& pattern, Grain grain, int count);
+//! \brief A pattern at an angle.
+struct Trial
+{
+    const Pattern* pattern = nullptr;
+    double angle = 0;
+};
 
-//! \brief Does one copy fit, in any allowed direction?
-bool fits(const Piece& piece, const Room& room);
+//! \brief What is worth trying in a room, most promising first; fewer trials when a sheet takes many copies.
+std::vector<Trial> trials_for(const Piece& piece, const Room& room);
 
-//! \brief As many copies in \p room as the search finds, not more than \p wanted.
-std::vector<Placement> densest_layout(const Piece& piece, const Room& room, int wanted);
+//! \brief One copy in an allowed direction, or nothing when it fits in none.
+Layout single_copy(const Piece& piece, const Room& room);
 
-//! \brief \p count copies, fewer than \p full has, packed to the lower or the left side so that the offcut is largest.
-std::vector<Placement> packed_layout(const Piece& piece, const Room& room, const std::vector<Placement>& full,
-                                     int count);
+//! \brief As many copies in \p room as the search finds, at least one if one fits.
+Layout densest_layout(const Piece& piece, const Room& room);
+
+//! \brief \p count copies, not more than \p full has, packed to the lower or the left side so that the offcut is large.
+Layout packed_layout(const Piece& piece, const Room& room, const Layout& full, int count);
 
 } // namespace rhombloom::nesting
