@@ -1,194 +1,200 @@
-// rhombloom element: the one flexible piece of a puzzle lamp, a rhomboid with four hooks.
-// Cut it from thin springy sheet or print it flat; many copies hook together, no glue.
-// Opens in OpenSCAD 2021.01 and later, needs no library. Window > Customizer shows the sliders.
-// Try the joint first: fit_coupon.scad.
+// rhombloom element: the one springy piece of a puzzle lamp, a rhomboid with a hook in each corner.
+// Cut many from thin sheet, or print them flat, and hook them together: no glue, no screws.
+// Works in OpenSCAD 2021.01 and later without any library. Sliders: Window > Customizer.
+// Cut fit_coupon.scad first: it tells you the right slit_clearance.
 
 /* [What to make] */
 
-// Cut: a flat outline for SVG or DXF. Print: a solid for STL. Pair: two pieces side by side, to cut a first joint.
-part = "cut"; // [cut:Outline to cut, print:Solid to print, pair:Two outlines to cut]
+// cut: an outline for SVG or DXF (laser, knife). print: a flat solid for STL
+output = "cut"; // [cut:Outline to cut, print:Solid to print]
 
 /* [Element] */
 
-// Short side la in mm, from node to node. It sets the size of the lamp.
-la = 80; // [20:1:300]
-// Long side lb in mm: it bows out between the hooks and makes the tension. Usual is 1.1 times la.
-lb = 88; // [21:0.5:450]
-// Acute angle in degrees. 63.435 makes a ball of 30, 60 and 69 are the other usual ones.
+// short side, node to node
+la = 80; // [40:1:200]
+// long side; 1.05 to 1.15 times la is usual, longer bows more
+lb = 88; // [41:0.5:300]
+// acute angle; 60, 63.435 and 69 suit most shapes
 alpha = 63.435; // [50:0.005:80]
-// Thickness of the sheet in mm. Measure it.
-thickness = 0.5; // [0.1:0.05:2]
-
-/* [Fit] */
-
-// Width of the slit in mm, as it shall be after cutting: thickness plus play. The coupon tells you the best.
-slit = 0.8; // [0.15:0.05:4]
-// Full width that the cutter burns away, in mm. 0 when the cutter's own program corrects it.
-kerf = 0; // [0:0.01:0.5]
+// of the sheet, measured
+thickness = 0.5; // [0.2:0.05:0.8]
 
 /* [Hook] */
 
-// Width of the finger in mm: the size of the whole hook.
-finger_width = 4.4; // [1.5:0.1:20]
-// Length of the straight finger in mm. Longer holds better and bends more when hooking.
-finger_length = 7.04; // [0:0.1:40]
-// Finger turned towards the element, in degrees.
-finger_turn = 0; // [-15:1:30]
-// Radius of the hole round each node in mm.
-hole_radius = 5.28; // [1.5:0.1:30]
-// How far the long side stands out over the line from node to node, in mm.
-lip = 3.7; // [0.5:0.1:20]
-// Rounding of the corners of that lip in mm.
-lip_rounding = 1.54; // [0.1:0.05:10]
-// Undercut of the shoulder in mm: what snaps. 0 lets the joint slide apart.
-barb = 0.528; // [0:0.05:4]
-// Play between the shoulder and the bottom of the slit in mm.
-seat_clearance = 0.05; // [0:0.05:2]
-// How far the neck lies inside the long side, in mm.
-neck_setback = 0.4; // [0:0.05:5]
-// Rounding in the corner between neck and shoulder in mm. 0 is sharp.
-relief = 0; // [0:0.05:2]
-// Depth of the soft curve between two hooks in mm.
+// the slit is this much wider than the sheet is thick
+slit_clearance = 0.3; // [0.1:0.05:1.5]
+// automatic: all hook sizes follow la, thickness and slit_clearance. given: as the sliders below say
+hook_sizes = "automatic"; // [automatic:Automatic, given:As given below]
+// of finger and root: the master size, the other dimensions follow it
+finger_width = 4.4; // [2:0.1:25]
+// of the round opening at each node
+hole_radius = 5.28; // [2:0.1:40]
+// of its straight part; longer holds better and bends more easily
+finger_length = 7.04; // [1:0.1:60]
+// of finger and slit towards the element, about the slit's bottom
+finger_turn = 0; // [0:0.5:15]
+// how far the long side reaches over a rim
+lip = 3.7; // [1:0.1:30]
+// of the neck behind the nominal long side
+neck_setback = 0.4; // [0:0.05:3]
+// between shoulder and slit bottom
+seat_clearance = 0.05; // [0:0.01:0.5]
+// undercut that locks the joint against pulling; 0 for none, card wants 0.6 or more
+barb = 0.528; // [0:0.05:5]
+// radius of the long side's ends
+lip_rounding = 1.54; // [0.3:0.05:10]
+// of the soft curve between two hooks
 scoop_depth = 8; // [0:0.5:60]
+// radius in the corner between neck and shoulder; 0.3 for sheets that tear
+relief = 0; // [0:0.05:2]
+
+/* [Cut] */
+
+// FULL width of the cut; 0 when the machine's program compensates
+kerf = 0; // [0:0.01:1]
+// width of the cut measured along y, when it differs
+kerf_y = 0; // [0:0.01:1]
 
 /* [Printing] */
 
-// Layer height in mm: the printed thickness is a whole number of layers.
+// the print is a whole number of these layers thick
 layer_height = 0.1; // [0.04:0.01:0.4]
 
 /* [Quality] */
 
-// Pieces of a full circle. Does not change the size of the part.
-segments = 96; // [32:8:256]
+// straight pieces of a full circle; 128 at most in a print. The size of the part stays the same
+segments = 360; // [32:8:1080]
 
 /* [Hidden] */
 
-module need(met, name, value, remedy) {
-    assert(met, str(name, " is ", value, ": ", remedy));
-}
-
-module need_number(name, value, low, high, unit) {
+function need(met, name, value, remedy) = assert(met, str(name, " is ", value, ": ", remedy)) true;
+function need_number(name, value, low, high, unit) =
     need(is_num(value) && value >= low && value <= high, name, value,
          str("set a number from ", low, " to ", high, " ", unit));
-}
 
-// ---- element: limits ----
-need_number("la", la, 20, 300, "mm");
-need_number("lb", lb, 21, 450, "mm");
-need_number("alpha", alpha, 50, 80, "degrees");
-need_number("thickness", thickness, 0.1, 2, "mm");
-need_number("slit", slit, 0.15, 4, "mm");
-need_number("kerf", kerf, 0, 0.5, "mm");
-need_number("finger_width", finger_width, 1.5, 20, "mm");
-need_number("finger_length", finger_length, 0, 40, "mm");
-need_number("finger_turn", finger_turn, -15, 30, "degrees");
-need_number("hole_radius", hole_radius, 1.5, 30, "mm");
-need_number("lip", lip, 0.5, 20, "mm");
-need_number("lip_rounding", lip_rounding, 0.1, 10, "mm");
-need_number("barb", barb, 0, 4, "mm");
-need_number("seat_clearance", seat_clearance, 0, 2, "mm");
-need_number("neck_setback", neck_setback, 0, 5, "mm");
-need_number("relief", relief, 0, 2, "mm");
-need_number("scoop_depth", scoop_depth, 0, 60, "mm");
-need_number("segments", segments, 32, 256, "pieces");
+// ---- limits and proportions of the element (the same in every template) ----
+sizes_in_range = [
+    need_number("la", la, 40, 200, "mm"),
+    need_number("lb", lb, 41, 300, "mm"),
+    need_number("alpha", alpha, 50, 80, "deg"),
+    need_number("thickness", thickness, 0.2, 0.8, "mm"),
+    need_number("slit_clearance", slit_clearance, 0.1, 1.5, "mm"),
+    need(hook_sizes == "automatic" || hook_sizes == "given", "hook_sizes", hook_sizes, "choose automatic or given"),
+    need_number("finger_width", finger_width, 2, 25, "mm"),
+    need_number("hole_radius", hole_radius, 2, 40, "mm"),
+    need_number("finger_length", finger_length, 1, 60, "mm"),
+    need_number("finger_turn", finger_turn, 0, 15, "deg"),
+    need_number("lip", lip, 1, 30, "mm"),
+    need_number("neck_setback", neck_setback, 0, 3, "mm"),
+    need_number("seat_clearance", seat_clearance, 0, 0.5, "mm"),
+    need_number("barb", barb, 0, 5, "mm"),
+    need_number("lip_rounding", lip_rounding, 0.3, 10, "mm"),
+    need_number("scoop_depth", scoop_depth, 0, 60, "mm"),
+    need_number("relief", relief, 0, 2, "mm")];
 
-need(lb > la, "lb", lb, str("the long side must be longer than la (", la, "): set lb to about ", 1.1 * la));
-need(lb <= 1.5 * la, "lb", lb, str("the long side bows too far: set lb to at most 1.5 la (", 1.5 * la, ")"));
-need(slit > thickness, "slit", slit, str("the sheet (", thickness, ") does not pass: set slit to thickness + 0.3"));
-need(kerf < slit - 0.05, "kerf", kerf, str("the cut closes the slit (", slit, "): set kerf under ", slit - 0.05));
-need(neck_depth() < hole_radius * sin(alpha / 2), "neck_setback", neck_setback,
-     str("neck and relief reach across the node hole: make neck_setback or relief smaller"));
-need(lip > lip_rounding, "lip_rounding", lip_rounding, str("set it under lip (", lip, ")"));
-need(barb == 0 || seat_tangent() < min(neck_setback, lip - lip_rounding), "barb", barb,
-     "too steep to be rounded: make barb smaller or neck_setback larger");
-need(lb > 2 * (pivot_radius() + seat_clearance - barb + lip_rounding), "finger_width", finger_width,
-     "no straight edge is left on the long side: make finger_width or hole_radius smaller");
-need(la - 2 * (pivot_radius() + slit / 2 + finger_length * cos(finger_turn) + finger_width / 2) >= 0.3 * la,
-     "finger_length", finger_length,
-     "the two fingers of a short side come too near: make finger_length, finger_width or hole_radius smaller");
-need(la - 2 * rim_end().x > 1, "finger_length", finger_length,
-     "no room for the soft curve: make finger_length or finger_width smaller");
-need(scoop_depth >= -rim_end().y, "scoop_depth", scoop_depth, str("set it to at least ", -rim_end().y));
-// ---- end of limits ----
+automatic = hook_sizes == "automatic";
+s = thickness + slit_clearance;
+w = automatic ? max(3, 0.055 * la) : finger_width;
+ri = automatic ? 1.2 * w : hole_radius;
+e = automatic ? 1.6 * w : finger_length;
+eta = automatic ? 0 : finger_turn;
+m = automatic ? 0.5 * thickness + 0.5 * slit_clearance + 0.75 * w : lip;
+cn = automatic ? 0.5 * thickness + 0.5 * slit_clearance : neck_setback;
+cs = automatic ? 0.05 : seat_clearance;
+b = automatic ? 0.12 * w : barb;
+rs = automatic ? 0.35 * w : lip_rounding;
+q = automatic ? 0.1 * la : scoop_depth;
+rc = automatic ? 0 : relief;
 
-// ---- element: outline. The steps are those of exporters/outline.h, point by point. ----
+Rp = ri + w;                                // pivot radius: from a node to the bottom of the slit
+neck = cn + rc;                             // depth of the neck
+seat_turn = atan2(b, m - rs);               // the shoulder's concave corner turns by this much ...
+seat_radius = b > 0 ? max(0.3, 0.2 + 0.06 / (seat_turn * PI / 180)) : 0; // ... with this radius
+seat_tangent = seat_radius * tan(seat_turn / 2);
+finger_d = [cos(eta), -sin(eta)];           // along the finger
+finger_n = [sin(eta), cos(eta)];            // across it, outwards
+pivot = [Rp + s / 2, 0];                    // middle of the slit's bottom
+rim_end = pivot - s / 2 * finger_n + (e + w) * finger_d;
+
+hook_fits = [
+    need(lb > la, "lb", lb, str("the long side must be longer than la (", la, "); set lb to about ", 1.1 * la)),
+    need(lb <= 1.5 * la, "lb", lb, str("the long side bows too far; set lb to at most 1.5 times la (", 1.5 * la, ")")),
+    need(neck < ri * sin(alpha / 2), "neck_setback", cn,
+         "neck and relief reach across the node hole; make neck_setback or relief smaller"),
+    need(m > rs, "lip_rounding", rs, str("set it under lip (", m, ")")),
+    need(b == 0 || (seat_tangent < cn && seat_tangent < m - rs), "barb", b,
+         "it is too steep to be rounded; make barb smaller or neck_setback larger"),
+    need(lb > 2 * (Rp + cs - b + rs), "finger_width", w,
+         "the long side has no straight edge left; make finger_width or hole_radius smaller"),
+    need((Rp + s / 2) * sin(alpha) > s / 2 + neck + 1, "finger_width", w,
+         "slit and long side come too near; make finger_width or hole_radius larger or slit_clearance smaller"),
+    need(la - 2 * rim_end.x > 1, "finger_length", e,
+         "no room is left for the soft curve; make finger_length or finger_width smaller"),
+    need(q >= -rim_end.y, "scoop_depth", q, str("the rims are deeper; set it to at least ", -rim_end.y)),
+    need(q < lb * sin(alpha) / 2 - 1, "scoop_depth", q,
+         str("the two soft curves meet; set it under ", lb * sin(alpha) / 2 - 1))];
+// ---- end of limits and proportions ----
+
+// ---- outline of the element: the steps of exporters/outline.h, point by point ----
 // A vertex is [x, y, bulge]; bulge = tan(sweep / 4) of the arc that follows, 0 for a straight line.
 scoop_biarcs = 12;
 
-function last(v) = v[len(v) - 1];
-function dot(a, b) = a.x * b.x + a.y * b.y;
+function dot(p, v) = p.x * v.x + p.y * v.y;
 function unit(v) = v / norm(v);
 function at(p, bulge) = [p.x, p.y, bulge];
-
-function pivot_radius() = hole_radius + finger_width;
-function neck_depth() = neck_setback + relief;
 
 // Half a side, then its mirror image u -> length - u in reverse order.
 function with_mirror_image(half, length) =
     concat(half, [for (i = [len(half) - 1 : -1 : 0])
         [length - half[i].x, half[i].y, i > 0 ? half[i - 1].z : 0]]);
 
-// The concave corner of the shoulder turns by seat_turn() and is rounded.
-function seat_turn() = atan2(barb, lip - lip_rounding);
-function seat_radius() = max(0.3, 0.2 + 0.06 / (seat_turn() * PI / 180));
-function seat_tangent() = barb > 0 ? seat_radius() * tan(seat_turn() / 2) : 0;
-function seat(shoulder) = barb <= 0 ? [] : [
-    [shoulder, -seat_tangent(), -tan(seat_turn() / 4)],
-    [shoulder - seat_tangent() * sin(seat_turn()), seat_tangent() * cos(seat_turn()), 0]];
-
-function half_long_side(h, shoulder) = concat(
-    [[sqrt(hole_radius * hole_radius - h * h), -h, 0]],
-    relief > 0 ? [[shoulder - relief, -h, -tan(22.5)]] : [],
-    [[shoulder, -neck_setback, 0]],
+function seat(shoulder) = b == 0 ? [] : [
+    [shoulder, -seat_tangent, -tan(seat_turn / 4)],
+    [shoulder - seat_tangent * sin(seat_turn), seat_tangent * cos(seat_turn), 0]];
+function half_long_side(shoulder) = concat(
+    [[sqrt(ri * ri - neck * neck), -neck, 0]],
+    rc > 0 ? [[shoulder - rc, -neck, -tan(22.5)]] : [],
+    [[shoulder, -cn, 0]],
     seat(shoulder),
-    [[shoulder - barb, lip - lip_rounding, tan(22.5)], [shoulder - barb + lip_rounding, lip, 0]]);
-function long_side() = with_mirror_image(half_long_side(neck_depth(), pivot_radius() + seat_clearance), lb);
+    [[shoulder - b, m - rs, tan(22.5)], [shoulder - b + rs, m, 0]]);
+function long_side() = with_mirror_image(half_long_side(Rp + cs), lb);
 
-// The finger leaves the slit's bottom along finger_d(); finger_n() points across it, outwards.
-function finger_pivot() = [pivot_radius() + slit / 2, 0];
-function finger_d() = [cos(finger_turn), -sin(finger_turn)];
-function finger_n() = [sin(finger_turn), cos(finger_turn)];
-function rim_end() = finger_pivot() - slit / 2 * finger_n() + (finger_length + finger_width) * finger_d();
-function hook(cb, tip, outer, inner) = [
-    [hole_radius, 0, tan((90 + finger_turn) / 4)],
-    at(cb + outer, 0),
+function half_short_side() = let (tip = pivot + e * finger_d, outer = (s / 2 + w) * finger_n, inner = s / 2 * finger_n) [
+    [ri, 0, tan((90 + eta) / 4)],
+    at(pivot + outer, 0),
     at(tip + outer, 1),
     at(tip + inner, 0),
-    at(cb + inner, -1),
-    at(cb - inner, 0)];
+    at(pivot + inner, -1),
+    at(pivot - inner, 0)];
 
 // The scoop: a cubic, cut as pairs of arcs that meet where their tangents are equally long.
-function bezier(c, t) = (1 - t) * (1 - t) * (1 - t) * c[0] + 3 * (1 - t) * (1 - t) * t * c[1]
+function cubic(c, t) = (1 - t) * (1 - t) * (1 - t) * c[0] + 3 * (1 - t) * (1 - t) * t * c[1]
     + 3 * (1 - t) * t * t * c[2] + t * t * t * c[3];
-function bezier_tangent(c, t) =
+function cubic_tangent(c, t) =
     unit((1 - t) * (1 - t) * (c[1] - c[0]) + 2 * (1 - t) * t * (c[2] - c[1]) + t * t * (c[3] - c[2]));
-function bulge_from_tangent(s, c) = (s.x * c.y - s.y * c.x) / (norm(c) + dot(s, c));
-function biarc(p, s, q, t) =
-    let (v = q - p, x = dot(v, s + t),
-         l = dot(v, v) / (x + sqrt(x * x + 2 * (1 - dot(s, t)) * dot(v, v))),
-         middle = (p + l * s + q - l * t) / 2)
-    [at(p, -bulge_from_tangent(s, middle - p)),
-     at(middle, -bulge_from_tangent(unit(q - p - l * (s + t)), q - middle))];
-function scoop(e, f) =
-    let (run = 0.35 * (f.x - e.x), depth = (scoop_depth + e.y) / 0.75,
-         c = [e, e + [run, -depth], f - [run, depth], f])
+function bulge_from_tangent(tangent, chord) =
+    (tangent.x * chord.y - tangent.y * chord.x) / (norm(chord) + dot(tangent, chord));
+function biarc(p, p_tangent, r, r_tangent) =
+    let (v = r - p, x = dot(v, p_tangent + r_tangent),
+         l = dot(v, v) / (x + sqrt(x * x + 2 * (1 - dot(p_tangent, r_tangent)) * dot(v, v))),
+         middle = (p + l * p_tangent + r - l * r_tangent) / 2)
+    [at(p, -bulge_from_tangent(p_tangent, middle - p)),
+     at(middle, -bulge_from_tangent(unit(v - l * (p_tangent + r_tangent)), r - middle))];
+function scoop(start, end) =
+    let (run = 0.35 * (end.x - start.x), depth = (q + start.y) / 0.75,
+         c = [start, start + [run, -depth], end - [run, depth], end])
     [for (i = [0 : scoop_biarcs - 1], v = let (t = i / scoop_biarcs, u = (i + 1) / scoop_biarcs)
-        biarc(bezier(c, t), bezier_tangent(c, t), bezier(c, u), bezier_tangent(c, u))) v];
-
-function half_short_side() = hook(finger_pivot(), finger_pivot() + finger_length * finger_d(),
-                                  (slit / 2 + finger_width) * finger_n(), slit / 2 * finger_n());
+        biarc(cubic(c, t), cubic_tangent(c, t), cubic(c, u), cubic_tangent(c, u))) v];
 function short_side() =
-    let (half = half_short_side(), both = with_mirror_image(half, la),
-         e = rim_end(), f = [la - e.x, e.y], n = len(half))
-    concat(half, scoop(e, f), [at(f, 0)], [for (i = [n : len(both) - 1]) both[i]]);
+    let (half = half_short_side(), both = with_mirror_image(half, la), end = [la - rim_end.x, rim_end.y])
+    concat(half, scoop(rim_end, end), [at(end, 0)], [for (i = [len(half) : len(both) - 1]) both[i]]);
 
 // A side's frame: u along it, o outwards (to the right). Its last vertex starts the arc round the next node.
 function placed_side(side, origin, u, hole_bulge) = [for (i = [0 : len(side) - 1])
     at(origin + side[i].x * u + side[i].y * [u.y, -u.x], i < len(side) - 1 ? side[i].z : hole_bulge)];
-function hole_bulge(corner) = -tan((corner - asin(neck_depth() / hole_radius)) / 4);
+function hole_bulge(corner) = -tan((corner - asin(neck / ri)) / 4);
 function without_repeats(path) = [for (i = [0 : len(path) - 1])
-    let (d = path[(i + 1) % len(path)] - path[i])
-    if (norm([d.x, d.y]) > 1e-9) path[i]];
+    let (step = path[(i + 1) % len(path)] - path[i]) if (norm([step.x, step.y]) > 1e-9) path[i]];
 
 // The contour, counter-clockwise: corner v0 (acute) in the origin, the long side v0-v1 on the x axis.
 function element_path() =
@@ -201,42 +207,61 @@ function element_path() =
         placed_side(short, la * v, -v, acute)));
 
 // Every arc in equal pieces; the closing point is not repeated.
-function arc_pieces(sweep) = max(ceil(segments / 32), ceil(segments * abs(sweep) / 360 - 1e-9));
-function turned(v, a) = [cos(a) * v.x - sin(a) * v.y, sin(a) * v.x + cos(a) * v.y];
-function arc_points(a, chord, sweep) =
-    let (n = arc_pieces(sweep))
-    [for (k = [0 : n - 1]) a + turned(chord, -(1 - k / n) * sweep / 2) * (sin(k / n * sweep / 2) / sin(sweep / 2))];
+fineness = output == "cut" ? segments : min(segments, 128);
+function arc_pieces(sweep) = max(ceil(fineness / 32), ceil(fineness * abs(sweep) / 360 - 1e-9));
+function turned(v, angle) = [cos(angle) * v.x - sin(angle) * v.y, sin(angle) * v.x + cos(angle) * v.y];
+function arc_points(p, chord, sweep) = let (n = arc_pieces(sweep)) [for (k = [0 : n - 1])
+    p + turned(chord, -(1 - k / n) * sweep / 2) * (sin(k / n * sweep / 2) / sin(sweep / 2))];
 function path_points(path) = [for (i = [0 : len(path) - 1],
-    p = let (a = [path[i].x, path[i].y], b = path[(i + 1) % len(path)])
-        path[i].z == 0 ? [a] : arc_points(a, [b.x, b.y] - a, 4 * atan(path[i].z))) p];
+    p = let (start = [path[i].x, path[i].y], next = path[(i + 1) % len(path)])
+        path[i].z == 0 ? [start] : arc_points(start, [next.x, next.y] - start, 4 * atan(path[i].z))) p];
 function element_points() = path_points(element_path());
 
-function sum(v, i = 0, s = 0) = i < len(v) ? sum(v, i + 1, s + v[i]) : s;
+function sum(v, i = 0, total = 0) = i < len(v) ? sum(v, i + 1, total + v[i]) : total;
 function area(points) = sum([for (i = [0 : len(points) - 1])
-    let (a = points[i], b = points[(i + 1) % len(points)]) (a.x * b.y - a.y * b.x) / 2]);
+    let (p = points[i], r = points[(i + 1) % len(points)]) (p.x * r.y - p.y * r.x) / 2]);
 function cut_length(points) = sum([for (i = [0 : len(points) - 1]) norm(points[(i + 1) % len(points)] - points[i])]);
 // ---- end of outline ----
 
-need(part == "cut" || part == "print" || part == "pair", "part", part, "choose cut, print or pair");
-need_number("layer_height", layer_height, 0.04, 0.4, "mm");
+// ---- sheet: the flat piece, as an outline to cut or a solid to print ----
+sheet_in_range = [
+    need(output == "cut" || output == "print", "output", output, "choose cut or print"),
+    need_number("segments", segments, 32, 1080, "pieces"),
+    need_number("kerf", kerf, 0, 1, "mm"),
+    need_number("kerf_y", kerf_y, 0, 1, "mm"),
+    need(max(kerf, kerf_y) < s - 0.05, kerf < kerf_y ? "kerf_y" : "kerf", max(kerf, kerf_y),
+         str("the cut closes the slit (", s, " mm); set kerf under ", s - 0.05, " or make slit_clearance larger")),
+    need_number("layer_height", layer_height, 0.04, 0.4, "mm")];
 
-outline = element_points();
-printed = max(1, round(thickness / layer_height)) * layer_height;
-need(part != "print" || printed < slit - 0.05, "layer_height", layer_height,
-     str("whole layers make the print ", printed, " mm thick, too much for the slit (", slit, "): set thinner layers"));
+printed = max(1, round(thickness / layer_height)) * layer_height; // thickness of the print
+print_fits = need(output == "cut" || printed < s - 0.05, "layer_height", layer_height,
+    str("whole layers make the print ", printed, " mm thick, too much for the slit (", s, "); set thinner layers"));
 
+// The edge moves out by half the kerf, so that the finished edge is the drawn one. kerf_y = 0 means: as kerf.
 module cut() {
-    offset(delta = kerf / 2) polygon(outline);
+    kx = max(kerf, 0.005);
+    ky = kerf_y == 0 ? kx : max(kerf_y, 0.005);
+    if (kerf == 0 && kerf_y == 0) {
+        children();
+    } else {
+        scale([min(1, kx / ky), min(1, ky / kx)]) offset(r = max(kx, ky) / 2, $fn = fineness)
+            scale([max(1, ky / kx), max(1, kx / ky)]) children();
+    }
 }
 
-if (part == "cut") {
-    cut();
-} else if (part == "print") {
-    linear_extrude(height = printed) polygon(outline);
-} else {
-    cut();
-    translate([0, la * sin(alpha) + 2 * lip + 2 * finger_width + 5]) cut();
+module sheet() {
+    if (output == "cut") {
+        cut() children();
+    } else {
+        linear_extrude(height = printed) children();
+    }
 }
+// ---- end of sheet ----
 
-echo(str("element: area ", area(outline) / 100, " cm2, cut length ", cut_length(outline), " mm, slit ", slit, " mm",
-         part == "print" ? str(", printed ", printed, " mm thick") : ""));
+// Centred, because OpenSCAD writes six digits: under 100 mm these are 0.0001 mm.
+points = element_points();
+middle = (lb * [1, 0] + la * [cos(alpha), sin(alpha)]) / 2;
+sheet() translate(-middle) polygon(points);
+
+echo(str("element: area ", area(points) / 100, " cm2, cut length ", cut_length(points), " mm, slit ", s, " mm",
+         output == "print" ? str(", printed ", printed, " mm thick") : str(", kerf ", max(kerf, kerf_y), " mm")));
