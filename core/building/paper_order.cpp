@@ -175,12 +175,13 @@ void build_batch(const Spiral& s, const std::vector<int>& batch)
 
 } // namespace
 
-std::vector<Step> paper_order(const Replay& replay, const BuildHistory& history)
+std::vector<Step> paper_order(const PlanSources& sources)
 {
+    const BuildHistory& history = sources.history;
     BuildState state = empty_state(history);
     for (const Target& target : history.targets) {
         reopen(state, target, chapter_of(state, history, target));
-        const Spiral spiral{stage_surface(replay, target.stage), history, target, state};
+        const Spiral spiral{stage_surface(sources.replay, target.stage), history, target, state};
         for (auto waiting = batches(state, history, target); !waiting.empty();
              waiting = batches(state, history, target)) {
             build_batch(spiral, waiting[next_batch(state, target, waiting)]);
