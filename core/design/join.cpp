@@ -35,20 +35,19 @@ private:
 };
 
 //! Numbers that the vertices of the moving part get in the fixed one; -1: not yet.
-std::vector<int> glued_numbers(const Surface& moving, const Cut& fixed_cut, const Cut& moving_cut,
-                               const std::vector<Seam>& seams)
+std::vector<int> glued_numbers(const Part& fixed, const Part& moving, const std::vector<Seam>& seams)
 {
-    const int count = static_cast<int>(moving.n_vertices() + moving_cut.copies.size());
+    const int count = static_cast<int>(moving.surface.n_vertices() + moving.cut.copies.size());
     Representatives same(count);
-    for (const Interface& loop : moving_cut.loops) {
+    for (const Interface& loop : moving.cut.loops) {
         for (const auto& [a, b] : loop.zipped) {
             same.join(a, b);
         }
     }
     std::vector<int> number(count, -1);
     for (const Seam& seam : seams) {
-        const Interface& a = fixed_cut.loops[seam.fixed];
-        const Interface& b = moving_cut.loops[seam.moving];
+        const Interface& a = fixed.cut.loops[seam.fixed];
+        const Interface& b = moving.cut.loops[seam.moving];
         for (int i = 0; i < a.size(); ++i) {
             number[same.find(b.vertices[partner(seam.match, i, a.size())])] = a.vertices[i];
         }
@@ -59,14 +58,14 @@ std::vector<int> glued_numbers(const Surface& moving, const Cut& fixed_cut, cons
     return number;
 }
 
-void place_seams(const Surface& fixed, const Cut& fixed_cut, const Cut& moving_cut, const std::vector<Seam>& seams,
-                 const Eigen::Isometry3d& pose, Graft& result)
+void place_seams(const Part& fixed, const Part& moving, const std::vector<Seam>& seams, const Eigen::Isometry3d& pose,
+                 Graft& result)
 {
-    const int old_count = static_cast<int>(fixed.n_vertices());
-    result.positions = fixed_cut.copies;
+    const int old_count = static_cast<int>(fixed.surface.n_vertices());
+    result.positions = fixed.cut.copies;
     for (const Seam& seam : seams) {
-        const Interface& a = fixed_cut.loops[seam.fixed];
-        const Interface& b = moving_cut.loops[seam.moving];
+        const Interface& a = fixed.cut.loops[seam.fixed];
+        const Interface& b = moving.cut.loops[seam.moving];
         for (int i = 0; i < a.size(); ++i) {
             const Vec3 middle = (a.points[i] + pose * b.points[partner(seam.match, i, a.size())]) / 2;
             if (a.vertices[i] >= old_count) {
@@ -79,20 +78,20 @@ void place_seams(const Surface& fixed, const Cut& fixed_cut, const Cut& moving_c
     }
 }
 
-Quad corners(const Surface& moving, const Cut& moving_cut, Face f)
+Quad corners(const Part& part, Face f)
 {
-    for (const auto& [face, rewritten] : moving_cut.rewritten) {
+    for (const auto& [face, rewritten] : part.cut.rewritten) {
         if (face == f.idx()) {
             return rewritten;
         }
     }
-    return quad(moving, f);
+    return quad(part.surface, f);
 }
 
-Vec3 position(const Surface& surface, const Cut& surface_cut, int v)
+Vec3 position(const Part& part, int v)
 {
-    const int count = static_cast<int>(surface.n_vertices());
-    return v < count ? surface.point(Vertex(v)) : surface_cut.copies[v - count];
+    const int count = static_cast<int>(part.surface.n_vertices());
+    return v < count ? part.surface.point(Vertex(v)) : part.cut.copies[v - count];
 }
 
 struct Draft
@@ -248,36 +247,37 @@ Expected<void> retag(SurfaceLists& lists, const std::vector<char>& acute_first, 
     return {};
 }
 
-Graft graft(const Surface& fixed, const Cut& fixed_cut, const Surface& moving, const Cut& moving_cut,
-            const std::vector<Seam>& seams, const Eigen::Isometry3d& pose)
+Graft graft(const Part& fixed, const Part& moving, const std::vector<Seam>& seams, const Eigen::Isometry3d& pose,
+            Vertex tip)
 {
     Graft result;
-    result.removed = fixed_cut.removed;
-    result.rewritten = fixed_cut.rewritten;
-    result.component_names = moving.components;
-    place_seams(fixed, fixed_cut, moving_cut, seams, pose, result);
-    std::vector<int> number = glued_numbers(moving, fixed_cut, moving_cut, seams);
-    std::vector<char> kept(moving.n_faces(), 1);
-    for (const int f : moving_cut.removed) {
+    result.removed = fixed.cut.removed;
+    result.rewritten = fixed.cut.rewritten;
+    result.component_names = moving.surface.components;
+    place_seams(fixed, moving, seams, pose, result);
+    std::vector<int> number = glued_numbers(fixed, moving, seams);
+    std::vector<char> kept(moving.surface.n_faces(), 1);
+    for (const int f : moving.cut.removed) {
         kept[f] = 0;
     }
-    for (const Face f : moving.faces()) {
+    for (const Face f : moving.surface.faces()) {
         if (!kept[f.idx()]) {
             continue;
         }
-        Quad q = corners(moving, moving_cut, f);
+        Quad q = corners(moving, f);
         for (int& v : q) {
             if (number[v] < 0) {
-                number[v] = static_cast<int>(fixed.n_vertices() + result.positions.size());
-                result.positions.push_back(pose * position(moving, moving_cut, v));
+                number[v] = static_cast<int>(fixed.surface.n_vertices() + result.positions.size());
+                result.positions.push_back(pose * position(moving, v));
             }
             v = number[v];
         }
         result.quads.push_back(q);
-        result.acute_first.push_back(is_acute(moving, f, 0));
-        result.serials.push_back(moving.data(f).serial);
-        result.components.push_back(moving.data(f).component);
+        result.acute_first.push_back(is_acute(moving.surface, f, 0));
+        result.serials.push_back(moving.surface.data(f).serial);
+        result.components.push_back(moving.surface.data(f).component);
     }
+    result.tip = tip.is_valid() ? number[tip.idx()] : -1;
     return result;
 }
 
@@ -310,7 +310,10 @@ Expected<Grafted> apply_grafts(const Surface& surface, const std::vector<Graft>&
     if (!made) {
         return tl::make_unexpected(made.error());
     }
-    Grafted out{std::move(*made), {}};
+    Grafted out{std::move(*made), {}, {}};
+    for (int v = 0; v < old_count; ++v) {
+        out.number.push_back(number[same.find(v)]);
+    }
     for (std::size_t g = 0; g < grafts.size(); ++g) {
         const int tip = grafts[g].tip;
         out.tips.push_back(tip < 0 ? -1 : number[same.find(tip >= old_count ? tip + offsets[g] : tip)]);
