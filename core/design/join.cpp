@@ -26,8 +26,9 @@ public:
 
     void join(int a, int b)
     {
-        const auto [low, high] = std::minmax(find(a), find(b));
-        parent_[high] = low;
+        const int first = find(a);
+        const int second = find(b);
+        parent_[std::max(first, second)] = std::min(first, second);
     }
 
 private:
@@ -248,7 +249,7 @@ Expected<void> retag(SurfaceLists& lists, const std::vector<char>& acute_first, 
 }
 
 Graft graft(const Part& fixed, const Part& moving, const std::vector<Seam>& seams, const Eigen::Isometry3d& pose,
-            Vertex tip)
+            const std::vector<Vertex>& tips)
 {
     Graft result;
     result.removed = fixed.cut.removed;
@@ -277,7 +278,9 @@ Graft graft(const Part& fixed, const Part& moving, const std::vector<Seam>& seam
         result.serials.push_back(moving.surface.data(f).serial);
         result.components.push_back(moving.surface.data(f).component);
     }
-    result.tip = tip.is_valid() ? number[tip.idx()] : -1;
+    for (const Vertex v : tips) {
+        result.tips.push_back(number[v.idx()]);
+    }
     return result;
 }
 
@@ -315,8 +318,10 @@ Expected<Grafted> apply_grafts(const Surface& surface, const std::vector<Graft>&
         out.number.push_back(number[same.find(v)]);
     }
     for (std::size_t g = 0; g < grafts.size(); ++g) {
-        const int tip = grafts[g].tip;
-        out.tips.push_back(tip < 0 ? -1 : number[same.find(tip >= old_count ? tip + offsets[g] : tip)]);
+        out.tips.emplace_back();
+        for (const int tip : grafts[g].tips) {
+            out.tips.back().push_back(Vertex(number[same.find(tip >= old_count ? tip + offsets[g] : tip)]));
+        }
     }
     return out;
 }

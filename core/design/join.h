@@ -19,7 +19,7 @@ struct Graft
     std::vector<int> serials;                       //!< of each; -1: give it a fresh one
     std::vector<int> components;                    //!< of each: index into \c component_names
     std::vector<std::string> component_names;       //!< of the added elements
-    int tip = -1;                                   //!< a vertex to keep track of; -1: none
+    std::vector<int> tips;                          //!< vertices to keep track of
 };
 
 //! \brief A surface and how it was cut.
@@ -38,16 +38,16 @@ struct Seam
 };
 
 //! \brief Glue what is left of \p moving, moved by \p pose, to what is left of \p fixed (Sec. 4.1).
-//! \param tip a vertex of the moving part to keep track of, or an invalid one.
+//! \param tips vertices of the moving part to keep track of.
 //! \pre each loop is in exactly one seam and matched loops have the same size.
 Graft graft(const Part& fixed, const Part& moving, const std::vector<Seam>& seams, const Eigen::Isometry3d& pose,
-            Vertex tip = Vertex());
+            const std::vector<Vertex>& tips = {});
 
 struct Grafted
 {
     Surface surface;
-    std::vector<int> tips;   //!< one per graft: the number of its tip now, -1 when it has none
-    std::vector<int> number; //!< of each old vertex now, -1 when it is gone
+    std::vector<std::vector<Vertex>> tips; //!< one list per graft: its tips' numbers now
+    std::vector<int> number;               //!< of each old vertex now, -1 when it is gone
 };
 
 //! \brief Apply changes that do not touch the same elements. The tags adapt: corner angles are kept, sides and facings

@@ -187,6 +187,13 @@ Expected<Graft> image_graft(const Surface& surface, const Element& element, cons
         v = *w;
         p = image.map * p;
     }
+    for (int& tip : result.tips) {
+        const auto w = image_number(surface, element, image, tip);
+        if (!w) {
+            return tl::make_unexpected(w.error());
+        }
+        tip = *w;
+    }
     for (Vec3& p : result.positions) {
         p = image.map * p;
     }
