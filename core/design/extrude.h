@@ -14,6 +14,7 @@ struct ExtrudeRequest
     std::string component;    //!< name of the new elements' part
     Symmetry symmetry;        //!< of the design; see \c all_images
     bool all_images = false;  //!< do the same at every image of the apex
+    int first_serial = -1;    //!< of the added elements; -1: the one after the target's largest
 };
 
 //! \brief One way to join the brush to the target, with the numbers that ranked it.
@@ -46,6 +47,7 @@ struct Extrusion
     std::vector<Vertex> tips;    //!< the vertices whose middle is the new tip: one, or the rim of an open brush
     Vec3 reached = Vec3::Zero(); //!< from the old apex to the new tip, mm
     int periods = 0;             //!< how often the brush was applied
+    int next_serial = 0;         //!< the first serial not used yet
     ExtrudeCandidate first;      //!< the choice of the first period
 };
 

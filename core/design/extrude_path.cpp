@@ -31,6 +31,7 @@ struct Attempt
     std::vector<Vertex> tips;
     double distance = 0; //!< of the tip from the end of the drag
     double cosine = 1;   //!< of the angle between the tip's way and the drag
+    int next_serial = 0;
     ExtrudeCandidate candidate;
 
     bool good() const { return settled(embedding) && cosine >= follows; }
@@ -45,15 +46,15 @@ Expected<Attempt> attempt(const Surface& target, const Element& element, const E
     if (!grafts) {
         return tl::make_unexpected(grafts.error());
     }
-    int serial = next_serial(target);
-    auto grafted = apply_grafts(target, *grafts, serial);
+    Attempt result;
+    result.next_serial = request.first_serial >= 0 ? request.first_serial : next_serial(target);
+    auto grafted = apply_grafts(target, *grafts, result.next_serial);
     if (!grafted) {
         return tl::make_unexpected(grafted.error());
     }
     if (const Validity validity = validate(grafted->surface, element); !validity.ok()) {
         return refuse(validity.problems.front());
     }
-    Attempt result;
     result.surface = std::move(grafted->surface);
     result.embedding = embed_in_place(result.surface, target, grafted->number, element, embedding);
     result.tips = grafted->tips.front();
@@ -126,6 +127,7 @@ Expected<Extrusion> extrude(const Surface& target, const Element& element, const
     ExtrudeRequest next = request;
     while (result.periods < max_periods) {
         next.apex = reached->tips.front();
+        next.first_serial = reached->next_serial;
         next.drag = start + request.drag - middle(reached->surface, reached->tips);
         if (next.drag.norm() < 0.25 * element.la || reached->tips.size() > 1) {
             break;
@@ -140,6 +142,7 @@ Expected<Extrusion> extrude(const Surface& target, const Element& element, const
     result.surface = std::move(reached->surface);
     result.embedding = reached->embedding;
     result.tips = reached->tips;
+    result.next_serial = reached->next_serial;
     result.reached = middle(result.surface, result.tips) - start;
     return result;
 }

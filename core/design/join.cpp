@@ -36,7 +36,7 @@ private:
 };
 
 //! Numbers that the vertices of the moving part get in the fixed one; -1: not yet.
-std::vector<int> glued_numbers(const Part& fixed, const Part& moving, const std::vector<Seam>& seams)
+std::vector<int> glued_numbers(const CutPart& fixed, const CutPart& moving, const std::vector<Seam>& seams)
 {
     const int count = static_cast<int>(moving.surface.n_vertices() + moving.cut.copies.size());
     Representatives same(count);
@@ -59,7 +59,7 @@ std::vector<int> glued_numbers(const Part& fixed, const Part& moving, const std:
     return number;
 }
 
-void place_seams(const Part& fixed, const Part& moving, const std::vector<Seam>& seams, const Eigen::Isometry3d& pose,
+void place_seams(const CutPart& fixed, const CutPart& moving, const std::vector<Seam>& seams, const Eigen::Isometry3d& pose,
                  Graft& result)
 {
     const int old_count = static_cast<int>(fixed.surface.n_vertices());
@@ -79,7 +79,7 @@ void place_seams(const Part& fixed, const Part& moving, const std::vector<Seam>&
     }
 }
 
-Quad corners(const Part& part, Face f)
+Quad corners(const CutPart& part, Face f)
 {
     for (const auto& [face, rewritten] : part.cut.rewritten) {
         if (face == f.idx()) {
@@ -89,7 +89,7 @@ Quad corners(const Part& part, Face f)
     return quad(part.surface, f);
 }
 
-Vec3 position(const Part& part, int v)
+Vec3 position(const CutPart& part, int v)
 {
     const int count = static_cast<int>(part.surface.n_vertices());
     return v < count ? part.surface.point(Vertex(v)) : part.cut.copies[v - count];
@@ -248,7 +248,7 @@ Expected<void> retag(SurfaceLists& lists, const std::vector<char>& acute_first, 
     return {};
 }
 
-Graft graft(const Part& fixed, const Part& moving, const std::vector<Seam>& seams, const Eigen::Isometry3d& pose,
+Graft graft(const CutPart& fixed, const CutPart& moving, const std::vector<Seam>& seams, const Eigen::Isometry3d& pose,
             const std::vector<Vertex>& tips)
 {
     Graft result;

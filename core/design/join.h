@@ -23,7 +23,7 @@ struct Graft
 };
 
 //! \brief A surface and how it was cut.
-struct Part
+struct CutPart
 {
     const Surface& surface;
     const Cut& cut;
@@ -40,7 +40,7 @@ struct Seam
 //! \brief Glue what is left of \p moving, moved by \p pose, to what is left of \p fixed (Sec. 4.1).
 //! \param tips vertices of the moving part to keep track of.
 //! \pre each loop is in exactly one seam and matched loops have the same size.
-Graft graft(const Part& fixed, const Part& moving, const std::vector<Seam>& seams, const Eigen::Isometry3d& pose,
+Graft graft(const CutPart& fixed, const CutPart& moving, const std::vector<Seam>& seams, const Eigen::Isometry3d& pose,
             const std::vector<Vertex>& tips = {});
 
 struct Grafted
