@@ -61,7 +61,8 @@ Expected<Design> parse_design(std::string_view text)
         read ? void(design.symmetry = *read) : reader.fail(read.error());
     }
     const json* operations = reader.take("operations");
-    if (operations != nullptr && (!operations->is_array() || operations->empty() || operations->size() > max_operations)) {
+    if (operations != nullptr &&
+        (!operations->is_array() || operations->empty() || operations->size() > max_operations)) {
         reader.fail("operations", "is " + describe(*operations) + ": expected a list of 1 to 10000 operations");
     }
     if (auto ok = reader.finish(); !ok) {

@@ -41,8 +41,7 @@ Expected<Attempt> attempt(const Surface& target, const Element& element, const E
                           const ExtrudeCandidate& candidate, const EmbedOptions& embedding)
 {
     const Symmetry none;
-    auto grafts =
-        symmetric_grafts(target, element, request.all_images ? request.symmetry : none, candidate.change);
+    auto grafts = symmetric_grafts(target, element, request.all_images ? request.symmetry : none, candidate.change);
     if (!grafts) {
         return tl::make_unexpected(grafts.error());
     }

@@ -197,8 +197,9 @@ Expected<Cut> opened_apex(const Surface& surface, const Element& element, Vertex
     const std::vector<char> all(surface.n_faces(), 1);
     Interface& loop = result.loops.front();
     const auto numbers = loop.vertices;
-    std::replace_if(loop.vertices.begin(), loop.vertices.end(),
-                    [&](int v) { return v >= static_cast<int>(surface.n_vertices()); }, apex.idx());
+    std::replace_if(
+        loop.vertices.begin(), loop.vertices.end(), [&](int v) { return v >= static_cast<int>(surface.n_vertices()); },
+        apex.idx());
     if (auto ok = check_opening(surface, result); !ok) {
         return tl::make_unexpected(ok.error());
     }
@@ -249,9 +250,8 @@ std::vector<Interface> shortened(const Interface& loop, int size, const DefectRa
                 }
             }
         }
-        std::stable_sort(next.begin(), next.end(), [](const Interface& a, const Interface& b) {
-            return zip_order(a) < zip_order(b);
-        });
+        std::stable_sort(next.begin(), next.end(),
+                         [](const Interface& a, const Interface& b) { return zip_order(a) < zip_order(b); });
         if (static_cast<int>(next.size()) > count) {
             next.resize(count);
         }

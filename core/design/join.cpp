@@ -59,8 +59,8 @@ std::vector<int> glued_numbers(const CutPart& fixed, const CutPart& moving, cons
     return number;
 }
 
-void place_seams(const CutPart& fixed, const CutPart& moving, const std::vector<Seam>& seams, const Eigen::Isometry3d& pose,
-                 Graft& result)
+void place_seams(const CutPart& fixed, const CutPart& moving, const std::vector<Seam>& seams,
+                 const Eigen::Isometry3d& pose, Graft& result)
 {
     const int old_count = static_cast<int>(fixed.surface.n_vertices());
     result.positions = fixed.cut.copies;

@@ -9,17 +9,17 @@ namespace rhombloom {
 //! carried over to the mirrored or rotated image of the place where it was found (symmetry.h).
 struct Graft
 {
-    std::vector<int> removed;                       //!< elements
-    std::vector<std::pair<int, Quad>> rewritten;    //!< elements that get other corners (an opened apex)
-    std::vector<std::pair<int, int>> zipped;        //!< vertices made one
-    std::vector<std::pair<int, Vec3>> moved;        //!< new positions of old vertices, mm
-    std::vector<Vec3> positions;                    //!< of the new vertices, mm
-    std::vector<Quad> quads;                        //!< the added elements
-    std::vector<char> acute_first;                  //!< of each: is its first corner acute?
-    std::vector<int> serials;                       //!< of each; -1: give it a fresh one
-    std::vector<int> components;                    //!< of each: index into \c component_names
-    std::vector<std::string> component_names;       //!< of the added elements
-    std::vector<int> tips;                          //!< vertices to keep track of
+    std::vector<int> removed;                    //!< elements
+    std::vector<std::pair<int, Quad>> rewritten; //!< elements that get other corners (an opened apex)
+    std::vector<std::pair<int, int>> zipped;     //!< vertices made one
+    std::vector<std::pair<int, Vec3>> moved;     //!< new positions of old vertices, mm
+    std::vector<Vec3> positions;                 //!< of the new vertices, mm
+    std::vector<Quad> quads;                     //!< the added elements
+    std::vector<char> acute_first;               //!< of each: is its first corner acute?
+    std::vector<int> serials;                    //!< of each; -1: give it a fresh one
+    std::vector<int> components;                 //!< of each: index into \c component_names
+    std::vector<std::string> component_names;    //!< of the added elements
+    std::vector<int> tips;                       //!< vertices to keep track of
 };
 
 //! \brief A surface and how it was cut.

@@ -21,10 +21,10 @@ constexpr int zip_variants = 6;
 constexpr int most_zips = 4;
 constexpr int choices_built = 40; // best-scored choices that are built and validated until enough are valid
 
-constexpr double off_union_weight = 0.25;  // per la of summed depth
-constexpr double zip_weight = 0.15;        // per mountain made one
-constexpr double margin_weight = 1.0;      // at the limit of the permissible defects, fading over comfortable_margin
-constexpr double asymmetry_weight = 2.0;   // per la
+constexpr double off_union_weight = 0.25; // per la of summed depth
+constexpr double zip_weight = 0.15;       // per mountain made one
+constexpr double margin_weight = 1.0;     // at the limit of the permissible defects, fading over comfortable_margin
+constexpr double asymmetry_weight = 2.0;  // per la
 constexpr double comfortable_margin = radians(40);
 
 //! One loop of each surface and how they match.
@@ -326,7 +326,8 @@ tl::unexpected<Error> no_candidate(const Interfaces& a, const Interfaces& b, std
     if (compatible == 0) {
         return refuse("none of " + tried + " near the intersection keeps the permissible defects: turn or move a part");
     }
-    return refuse("none of " + tried + " near the intersection joins to a surface that can be built: turn or move a part");
+    return refuse("none of " + tried +
+                  " near the intersection joins to a surface that can be built: turn or move a part");
 }
 
 } // namespace

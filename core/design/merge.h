@@ -7,25 +7,26 @@ namespace rhombloom {
 
 struct MergeOptions
 {
-    int count = 8;      //!< candidates returned at most
-    Symmetry symmetry;  //!< of the design: among equals the symmetric candidate wins
+    int count = 8;     //!< candidates returned at most
+    Symmetry symmetry; //!< of the design: among equals the symmetric candidate wins
     EmbedOptions embedding;
 };
 
 //! \brief One way to join two posed surfaces, with the numbers that ranked it.
 struct MergeCandidate
 {
-    int removed_a = 0;     //!< elements of the first surface that go
+    int removed_a = 0; //!< elements of the first surface that go
     int removed_b = 0;
-    int loop_size = 0;     //!< vertices of the seams
-    int zips = 0;          //!< mountains made one
-    double distance = 0;   //!< rms distance of the merged vertices in the given pose, mm
-    double off_union = 0;  //!< how far elements are kept inside the other surface or missing outside it: sum of depths, mm
+    int loop_size = 0;   //!< vertices of the seams
+    int zips = 0;        //!< mountains made one
+    double distance = 0; //!< rms distance of the merged vertices in the given pose, mm
+    double off_union =
+        0; //!< how far elements are kept inside the other surface or missing outside it: sum of depths, mm
     double min_defect = 0; //!< of the merged vertices and zipped valleys, radians
     double max_defect = 0;
-    double asymmetry = 0;  //!< rms distance of the seam from its image, mm; 0 off the plane or axis
-    double score = 0;      //!< lower is better
-    Graft change;          //!< of the first surface
+    double asymmetry = 0; //!< rms distance of the seam from its image, mm; 0 off the plane or axis
+    double score = 0;     //!< lower is better
+    Graft change;         //!< of the first surface
 };
 
 //! \brief The paper's rule alone (Sec. 4.2): retain or discard the intersecting elements of either surface; the valid

@@ -80,10 +80,7 @@ void add_interface(const MeetingSide& side, const Element& element, const Mask& 
 class CheapestSubsets
 {
 public:
-    explicit CheapestSubsets(const std::vector<double>& sorted_costs) : costs_(sorted_costs)
-    {
-        queue_.push({0, {}});
-    }
+    explicit CheapestSubsets(const std::vector<double>& sorted_costs) : costs_(sorted_costs) { queue_.push({0, {}}); }
 
     bool empty() const { return queue_.empty(); }
 
@@ -155,8 +152,11 @@ private:
 
 MeetingSide merge_side(const Surface& surface, const std::vector<char>& intersecting, const Surface& other)
 {
-    MeetingSide side{surface, intersecting, outside_elements(surface, intersecting, other),
-                     band_elements(surface, intersecting), {}};
+    MeetingSide side{surface,
+                     intersecting,
+                     outside_elements(surface, intersecting, other),
+                     band_elements(surface, intersecting),
+                     {}};
     for (const Face f : side.band) {
         side.depth.push_back(signed_distance(other, centre(surface, f)));
     }

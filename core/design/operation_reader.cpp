@@ -10,7 +10,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double farthest = 1e6;     // mm, a kilometre
+constexpr double farthest = 1e6;      // mm, a kilometre
 constexpr std::size_t longest = 1000; // entries of a list of elements or joins
 
 template <class T>

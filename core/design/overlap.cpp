@@ -118,7 +118,8 @@ Triangle shrunk(const Triangle& t)
 {
     const Vec3 middle = (t[0] + t[1] + t[2]) / 3;
     Triangle result;
-    std::transform(t.begin(), t.end(), result.begin(), [&](const Vec3& p) { return Vec3(middle + 0.999 * (p - middle)); });
+    std::transform(t.begin(), t.end(), result.begin(),
+                   [&](const Vec3& p) { return Vec3(middle + 0.999 * (p - middle)); });
     return result;
 }
 
@@ -188,8 +189,7 @@ Overlap overlap(const Surface& a, const Surface& b, double touching)
             continue;
         }
         for (const Face g : b.faces()) {
-            if (box.exteriorDistance(boxes[g.idx()]) <= touching &&
-                close(triangles(a, f), triangles(b, g), touching)) {
+            if (box.exteriorDistance(boxes[g.idx()]) <= touching && close(triangles(a, f), triangles(b, g), touching)) {
                 result.a[f.idx()] = 1;
                 result.b[g.idx()] = 1;
                 result.any = true;

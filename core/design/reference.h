@@ -8,7 +8,12 @@ namespace rhombloom {
 //! point, or as the nearest to a direction.
 struct Reference
 {
-    enum class Kind { Number, Near, Toward };
+    enum class Kind
+    {
+        Number,
+        Near,
+        Toward
+    };
     Kind kind = Kind::Number;
     int number = 0;
     Vec3 point = Vec3::Zero(); //!< Near: mm. Toward: a direction, seen from the middle of the surface

@@ -34,8 +34,8 @@ Expected<ScenePart*> part(Scene& scene, const std::string& id)
     for (const ScenePart& candidate : scene.parts) {
         known += (known.empty() ? "" : ", ") + candidate.id;
     }
-    return refuse("there is no part \"" + id + "\" at this point of the history; there are: " +
-                  (known.empty() ? "none" : known));
+    return refuse("there is no part \"" + id +
+                  "\" at this point of the history; there are: " + (known.empty() ? "none" : known));
 }
 
 Expected<void> check_symmetric(const Design& design, bool symmetric)
@@ -189,8 +189,8 @@ Expected<void> run(const Open& open, const Context& context)
     if (!opened) {
         return tl::make_unexpected(opened.error());
     }
-    (*on)->embedding = embed_in_place(opened->surface, (*on)->surface, opened->number, context.element(),
-                                      context.embedding);
+    (*on)->embedding =
+        embed_in_place(opened->surface, (*on)->surface, opened->number, context.element(), context.embedding);
     (*on)->surface = std::move(opened->surface);
     return {};
 }

@@ -20,13 +20,12 @@ struct Scene
 {
     std::vector<ScenePart> parts;
     int next_serial = 0;
-    int operations = 0;                      //!< carried out so far
+    int operations = 0;                       //!< carried out so far
     std::map<std::string, BaseShape> brushes; //!< embedded, by name
 };
 
 //! \brief Carry out one operation. The refusal gives the reason, without the JSON path.
-Expected<void> carry_out(const Operation& operation, const Design& design, const EmbedOptions& embedding,
-                         Scene& scene);
+Expected<void> carry_out(const Operation& operation, const Design& design, const EmbedOptions& embedding, Scene& scene);
 
 //! \brief All parts as one surface.
 Expected<Surface> whole(const Scene& scene);

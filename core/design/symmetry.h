@@ -7,7 +7,12 @@ namespace rhombloom {
 //! \brief The symmetry that a design declares: a mirror plane or an n-fold axis.
 struct Symmetry
 {
-    enum class Kind { None, Mirror, Axis };
+    enum class Kind
+    {
+        None,
+        Mirror,
+        Axis
+    };
     Kind kind = Kind::None;
     Vec3 direction = Vec3::UnitX(); //!< normal of the plane, or the axis; any length but 0
     Vec3 through = Vec3::Zero();    //!< mm
