@@ -27,8 +27,10 @@ struct HookCheckOptions
 };
 
 //! \brief The checks C1 to C13, in this order, for the actual parameters; C1, C2, C12 and C13 on the real outline.
-//! \details A piece whose contour cannot be drawn at all fails C1 with the outline's own sentence and has no further
-//! entries.
+//! \details C12 allows 0.5 mm of play in every direction but straight inwards, where the neck meets the slit's bottom
+//! only after `cn + sqrt(cs (s - cs))` (0.59 mm for the default piece): there the slit's width is allowed. A piece
+//! without a barb need not be held straight outwards. A piece whose contour cannot be drawn at all fails C1 with the
+//! outline's own sentence and has no further entries.
 std::vector<HookCheck> hook_checks(const HookParameters& parameters, const HookCheckOptions& options = {});
 
 //! \brief Refuse parameters that fail a check, with the first such check's id and sentence.

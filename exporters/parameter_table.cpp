@@ -132,7 +132,17 @@ std::vector<Parameter> finger_rows()
 std::vector<Parameter> long_side_rows()
 {
     using P = HookParameters;
-    const ParameterRule lip{{{"thickness", 0.5}, {"slit_clearance", 0.5}, {"finger_width", 0.75}}};
+    using A = AngleFactor;
+    // Capped where the lip would touch the next finger of a node (hook check C6): small pieces of small alpha.
+    const ParameterRule lip{{{"thickness", 0.5}, {"slit_clearance", 0.5}, {"finger_width", 0.75}},
+                            0,
+                            -1e300,
+                            {{"hole_radius", 1, A::SineOfAlpha},
+                             {"finger_width", 1, A::SineOfAlpha},
+                             {"finger_width", -1, A::CosineOfAlpha},
+                             {"thickness", -0.5, A::CosineOfAlpha},
+                             {"slit_clearance", -0.5, A::CosineOfAlpha}},
+                            -0.31};
     const ParameterRule half_slit{{{"thickness", 0.5}, {"slit_clearance", 0.5}}};
     return {
         described(length<&P::lip>("lip", "m", "Hook", lip), 1, 30, 0.1, "how far the long side reaches over a rim"),
@@ -177,13 +187,48 @@ const Parameter* find_row(const std::string& name)
     return row == table.end() ? nullptr : &*row;
 }
 
+double angle_factor(AngleFactor factor, double alpha)
+{
+    switch (factor) {
+    case AngleFactor::SineOfAlpha:
+        return std::sin(alpha);
+    case AngleFactor::CosineOfAlpha:
+        return std::cos(alpha);
+    default:
+        return 1;
+    }
+}
+
+double sum(const std::vector<ParameterTerm>& terms, double constant, const PieceParameters& parameters)
+{
+    double value = constant;
+    for (const ParameterTerm& term : terms) {
+        value += term.factor * find_row(term.name)->get(parameters) * angle_factor(term.angle, parameters.hook.alpha);
+    }
+    return value;
+}
+
 double evaluate(const ParameterRule& rule, const PieceParameters& parameters)
 {
-    double value = rule.constant;
-    for (const auto& [name, factor] : rule.terms) {
-        value += factor * find_row(name)->get(parameters);
+    const double value = std::max(rule.floor, sum(rule.terms, rule.constant, parameters));
+    return rule.cap.empty() ? value : std::min(value, sum(rule.cap, rule.cap_constant, parameters));
+}
+
+std::string sum_text(const std::vector<ParameterTerm>& terms, double constant)
+{
+    std::string text;
+    for (const ParameterTerm& term : terms) {
+        const std::string sign = text.empty() ? (term.factor < 0 ? "-" : "") : term.factor < 0 ? " - " : " + ";
+        const double factor = std::abs(term.factor);
+        text += sign + (factor == 1 ? "" : to_text(factor) + " * ") + term.name +
+                (term.angle == AngleFactor::SineOfAlpha     ? " * sin(alpha)"
+                 : term.angle == AngleFactor::CosineOfAlpha ? " * cos(alpha)"
+                                                            : "");
     }
-    return std::max(rule.floor, value);
+    if (text.empty() || constant > 0) {
+        return text + (text.empty() ? "" : " + ") + to_text(constant);
+    }
+    return constant == 0 ? text : text + " - " + to_text(-constant);
 }
 
 Expected<void> check_setting(const ParameterSetting& setting)
@@ -233,14 +278,9 @@ const std::vector<Parameter>& parameter_table()
 
 std::string to_text(const ParameterRule& rule)
 {
-    std::string text;
-    for (const auto& [name, factor] : rule.terms) {
-        text += (text.empty() ? "" : " + ") + (factor == 1 ? name : to_text(factor) + " * " + name);
-    }
-    if (rule.constant != 0 || text.empty()) {
-        text += (text.empty() ? "" : " + ") + to_text(rule.constant);
-    }
-    return rule.floor > -1e299 ? "max(" + to_text(rule.floor) + ", " + text + ")" : text;
+    std::string text = sum_text(rule.terms, rule.constant);
+    text = rule.floor > -1e299 ? "max(" + to_text(rule.floor) + ", " + text + ")" : text;
+    return rule.cap.empty() ? text : "min(" + text + ", " + sum_text(rule.cap, rule.cap_constant) + ")";
 }
 
 std::string option_name(const Parameter& parameter)

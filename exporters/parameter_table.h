@@ -16,12 +16,30 @@ struct PieceParameters
     Kerf kerf;
 };
 
-//! \brief A default: the sum of `factor * parameter` over the terms plus a constant, at least \p floor.
+//! How a term of a rule depends on the acute angle.
+enum class AngleFactor
+{
+    None,
+    SineOfAlpha,
+    CosineOfAlpha
+};
+
+//! \brief `factor * name`, times a function of alpha.
+struct ParameterTerm
+{
+    std::string name; //!< of an earlier row
+    double factor = 1;
+    AngleFactor angle = AngleFactor::None;
+};
+
+//! \brief A default: the sum of the terms plus a constant, at least \p floor, at most \p cap plus \p cap_constant.
 struct ParameterRule
 {
-    std::vector<std::pair<std::string, double>> terms; //!< names of earlier rows
+    std::vector<ParameterTerm> terms = {};
     double constant = 0;
     double floor = -1e300;
+    std::vector<ParameterTerm> cap = {}; //!< none: no upper bound
+    double cap_constant = 0;
 };
 
 //! \brief One row of the table of parameters. Values in the row's own unit (mm or degrees).

@@ -34,8 +34,10 @@ TEST(ParameterTable, RulesReferToEarlierRowsOnly)
 {
     std::set<std::string> earlier;
     for (const Parameter& row : parameter_table()) {
-        for (const auto& term : row.rule.terms) {
-            EXPECT_TRUE(earlier.count(term.first)) << row.name << " needs " << term.first;
+        for (const auto& terms : {row.rule.terms, row.rule.cap}) {
+            for (const ParameterTerm& term : terms) {
+                EXPECT_TRUE(earlier.count(term.name)) << row.name << " needs " << term.name;
+            }
         }
         earlier.insert(row.name);
     }
@@ -78,6 +80,11 @@ TEST(ParameterTable, RulesReadAsExpressions)
     }
     EXPECT_NE(all.find("lb = 1.1 * la\n"), std::string::npos) << all;
     EXPECT_NE(all.find("finger_width = max(3, 0.055 * la)\n"), std::string::npos) << all;
+    EXPECT_NE(all.find("lip = min(0.5 * thickness + 0.5 * slit_clearance + 0.75 * finger_width, hole_radius * "
+                       "sin(alpha) + finger_width * sin(alpha) - finger_width * cos(alpha) - 0.5 * thickness * "
+                       "cos(alpha) - 0.5 * slit_clearance * cos(alpha) - 0.31)\n"),
+              std::string::npos)
+        << all;
     EXPECT_NE(all.find("kerf_y = kerf\n"), std::string::npos) << all;
     EXPECT_NE(all.find("finger_turn = 0\n"), std::string::npos) << all;
 }

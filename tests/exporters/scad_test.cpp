@@ -60,8 +60,8 @@ std::string resolved_rule(const Parameter& row)
 {
     std::string rule = to_text(row.rule);
     for (const Parameter& other : parameter_table()) {
-        const std::size_t found = rule.find(other.name);
-        if (other.section == "Hook" && other.name != "slit_clearance" && found != std::string::npos) {
+        const bool has_symbol = other.section == "Hook" && other.name != "slit_clearance";
+        for (std::size_t found = 0; has_symbol && (found = rule.find(other.name)) != std::string::npos;) {
             rule.replace(found, other.name.size(), other.symbol);
         }
     }

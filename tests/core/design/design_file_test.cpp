@@ -42,8 +42,7 @@ struct Bad
 };
 
 class BadDesign : public testing::TestWithParam<Bad>
-{
-};
+{};
 
 TEST_P(BadDesign, IsRefusedWithItsPlace)
 {
