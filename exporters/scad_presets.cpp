@@ -24,7 +24,7 @@ struct Way
 
 const Way laser{"laser", "cut", 0.15};
 const Way knife{"knife", "cut", 0};
-const Way printer{"print", "print", 0};
+const Way printer{"printed", "print", 0};
 
 //! Short sides, mm: the columns of the dimensions table.
 constexpr double sizes[] = {40, 60, 80, 100, 120, 200};
@@ -32,7 +32,7 @@ constexpr double sizes[] = {40, 60, 80, 100, 120, 200};
 //! The sheet that suits an element of this size, mm.
 double usual_thickness(double la)
 {
-    return la < 50 ? 0.2 : la < 70 ? 0.3 : la < 110 ? 0.5 : 0.8;
+    return la < 70 ? 0.3 : la < 110 ? 0.5 : 0.8;
 }
 
 std::vector<Way> ways(const Material& material)
@@ -62,20 +62,22 @@ PieceParameters piece(const Material& material, double la, double kerf)
     return parameters;
 }
 
-bool buildable(const Material& material, const PieceParameters& parameters)
+//! With the widest kerf that presets have.
+bool buildable(const Material& material, double la)
 {
-    return element_outline(parameters.hook).has_value() && material.strain_limit > 0;
+    const PieceParameters parameters = piece(material, la, laser.kerf);
+    return check(parameters.hook, {parameters.kerf, material.strain_limit}).has_value();
 }
 
 void append_sheets(std::vector<ScadPreset>& presets, const Material& material, double la)
 {
+    if (!buildable(material, la)) {
+        return;
+    }
     for (const Way& way : ways(material)) {
-        const PieceParameters parameters = piece(material, la, way.kerf);
-        if (buildable(material, parameters)) {
-            presets.push_back(scad_preset(material.title + ", la " + to_fixed(la, 2) + ", " + way.title,
-                                          ScadPart::Sheet, parameters));
-            presets.back().values.emplace_back("output", way.output);
-        }
+        const std::string name = material.title + ", la " + to_fixed(la, 2) + ", " + way.title;
+        presets.push_back(scad_preset(name, ScadPart::Sheet, piece(material, la, way.kerf)));
+        presets.back().values.emplace_back("output", way.output);
     }
 }
 

@@ -154,6 +154,21 @@ module made(height) {
     }
 }
 
+// What the part holds, to be seen in the preview (F5) only; never exported.
+module held() {
+    if ($preview && output == "print") {
+        %children();
+    }
+}
+
+// Sheets with a round hole, seen from the edge: wings go through them along +y.
+module held_sheets(hole, stack, height) {
+    held() translate([0, 0, height / 2]) rotate([-90, 0, 0]) linear_extrude(height = stack) difference() {
+        circle(d = 2.2 * hole, $fn = segments);
+        circle(d = hole, $fn = segments);
+    }
+}
+
 // Convex corners rounded; slots keep their width.
 module rounded(r) {
     offset(r = r, $fn = segments) offset(delta = -r) children();
@@ -201,6 +216,9 @@ function bow_angle(ratio, low = 0, high = 180, steps = 40) = let (mid = (low + h
     steps == 0 ? mid : sin(mid) / (mid * PI / 180) > ratio ? bow_angle(ratio, mid, high, steps - 1)
                                                           : bow_angle(ratio, low, mid, steps - 1);
 phi = bow_angle((la - 2 * Rp) / (lb - 2 * Rp));
+bow_radius = (lb - 2 * Rp) / (2 * phi * PI / 180);
+jaw_depth = min(0.8 * e, sqrt(8 * bow_radius * max(play, 0.1))); // no deeper than the bow is nearly straight
+jaw_angle = phi - jaw_depth / bow_radius / 2 * 180 / PI;
 
 // Where the soft curve is as deep as the clip is wide.
 function scoop_u(t) = let (run = 0.35 * (la - 2 * rim_end.x)) rim_end.x * (1 - t) * (1 - t) * (1 - t)
@@ -212,25 +230,31 @@ function scoop_t(depth) = (1 - sqrt(max(0, 1 - (depth + rim_end.y) / (q + rim_en
 clip_fits = need(part == "rivet" || part == "holes" || q > clip_width + 0.5, "scoop_depth", q,
     str("the repair clip finds no end of the rim; set scoop_depth over ", clip_width + 0.5, " or part to rivet"));
 
+floor_x = sqrt(ri * ri - clip_width * clip_width) - play;
+tooth_x = clip_width < q ? scoop_u(scoop_t(clip_width)) + play : la / 2;
+jaw_y = slot + wall * sin(jaw_angle) + (slot / 2 + wall) * cos(jaw_angle);
+
 module repair_clip() {
-    floor_x = sqrt(ri * ri - clip_width * clip_width) - play;
-    tooth_x = scoop_u(scoop_t(clip_width)) + play;
-    jaw_y = slot + wall * sin(phi) + (slot / 2 + wall) * cos(phi);
     rounded(0.25) {
-        difference() {
-            union() {
-                translate([floor_x - wall, -wall]) square([wall, slot + 2 * wall]);
-                translate([floor_x - wall, -wall]) square([tooth_x - floor_x + wall, wall]);
-                hull() {
-                    translate([floor_x - wall, slot]) square([Rp - floor_x + wall, wall]);
-                    translate([Rp, jaw_y]) rotate(phi) translate([-wall, -slot / 2 - wall]) square([wall, slot + 2 * wall]);
-                }
-                translate([Rp, jaw_y]) rotate(phi) jaw(slot, 0.8 * e);
-            }
+        translate([floor_x - wall, -wall]) square([wall, slot + 2 * wall]);
+        translate([floor_x - wall, -wall]) square([tooth_x - floor_x + wall, wall]);
+        hull() {
+            translate([floor_x - wall, slot]) square([Rp - floor_x + wall, wall]);
+            translate([Rp, jaw_y]) rotate(jaw_angle) translate([-wall, -slot / 2 - wall]) square([wall, slot + 2 * wall]);
         }
+        translate([Rp, jaw_y]) rotate(jaw_angle) jaw(slot, jaw_depth);
         polygon([[tooth_x - 0.01, -wall], [tooth_x - 0.01, 0], [tooth_x, thickness], [tooth_x + 0.5 * wall, thickness],
                  [tooth_x + 2 * wall, -wall]]);
     }
+}
+
+// The element with the broken hook, flat, and the bowed long side, from the shoulder on.
+function bow_points(r, length, n = 24) = [for (i = [0 : n])
+    let (a = phi - length / r * 180 / PI * i / n) [Rp, jaw_y] + r * [sin(phi) - sin(a), cos(a) - cos(phi)]];
+module held_edges() {
+    side = bow_points(bow_radius, 0.45 * (lb - 2 * Rp));
+    translate([floor_x + play, 0]) square([tooth_x - floor_x - 2 * play, thickness]);
+    for (i = [1 : len(side) - 1]) hull() for (p = [side[i - 1], side[i]]) translate(p) circle(d = thickness, $fn = 12);
 }
 // ---- end of repair clip ----
 
@@ -255,9 +279,13 @@ module test_holes() {
 
 if (part == "all" || part == "clip") {
     made(clip_width - 0.2) repair_clip();
+    held() translate([0, 0, -clip_width]) linear_extrude(height = 3 * clip_width) held_edges();
 }
 if (part == "all" || part == "rivet") {
-    translate([part == "all" ? hole : 0, part == "all" ? -wing_length(hole) - 12 : 0]) made(wing_height(hole)) rivet();
+    translate([part == "all" ? hole : 0, part == "all" ? -wing_length(hole) - 12 : 0]) {
+        made(wing_height(hole)) rivet();
+        held_sheets(hole, rivet_layers * thickness, wing_height(hole));
+    }
 }
 if (part == "all" || part == "holes") {
     translate([part == "all" ? 2.5 * hole : 0, part == "all" ? -hole - 22 : 0]) made(rivet_layers * thickness) test_holes();

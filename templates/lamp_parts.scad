@@ -168,6 +168,21 @@ module made(height) {
     }
 }
 
+// What the part holds, to be seen in the preview (F5) only; never exported.
+module held() {
+    if ($preview && output == "print") {
+        %children();
+    }
+}
+
+// Sheets with a round hole, seen from the edge: wings go through them along +y.
+module held_sheets(hole, stack, height) {
+    held() translate([0, 0, height / 2]) rotate([-90, 0, 0]) linear_extrude(height = stack) difference() {
+        circle(d = 2.2 * hole, $fn = segments);
+        circle(d = hole, $fn = segments);
+    }
+}
+
 // Convex corners rounded; slots keep their width.
 module rounded(r) {
     offset(r = r, $fn = segments) offset(delta = -r) children();
@@ -360,18 +375,38 @@ module stand() {
     translate([0, -stand_base - ball_radius * (1 - cos(asin(stand_width / 2 / ball_radius))) - 6]) stand_profile(false);
 }
 
-if (part == "ring") {
-    made(plate) ring();
-} else if (part == "cap") {
-    made(plate) cap();
+// The edges that ring and cap reach for: soft curves and lips of the four neighbours.
+module held_neighbours() {
+    for (side = [-1, 1]) scale(side) {
+        v = la / 2 * [cos(alpha), sin(alpha)];
+        translate(v) difference() {
+            translate([-lb / 2 + Rp, 0]) square([lb - 2 * Rp, q + 2 * w]);
+            scale([1, 2 * q / (la - 2 * rim_end.x)]) circle(d = la - 2 * rim_end.x, $fn = segments);
+        }
+        translate([lb / 2, 0]) rotate(alpha) translate([-la / 2 + Rp, -2 * w]) square([la - 2 * Rp, 2 * w + m]);
+    }
+}
+
+if (part == "ring" || part == "cap") {
+    made(plate) if (part == "ring") ring(); else cap();
+    held() translate([0, 0, plate / 2]) linear_extrude(height = thickness) held_neighbours();
 } else if (part == "edge_clip") {
     made(clip_width) edge_clip();
+    held() translate([0, 0, -clip_width]) linear_extrude(height = 3 * clip_width) {
+        translate([-16, -plate / 2]) square([16, plate]);
+        rotate(edge_angle) translate([1.5 * wall, -thickness / 2]) square([18, thickness]);
+    }
 } else if (part == "cord_lock") {
     made(plate) cord_lock();
 } else if (part == "hanger") {
     made(max(plate, wing_height(2 * ri))) hanger();
+    held_sheets(2 * ri, 2 * thickness, max(plate, wing_height(2 * ri)));
 } else {
     made(plate) stand();
+    held() translate([0, stand_base + ball_radius, plate / 2]) intersection() { // the bottom of the lamp
+        sphere(r = ball_radius - 0.5, $fn = 96);
+        translate([0, -1.35 * ball_radius, 0]) cube([2 * ball_radius, ball_radius, stand_width], center = true);
+    }
 }
 
 echo(part == "ring" ? str("ring: bore ", socket_bore, " mm, ", four_tongues ? 4 : 2, " edge clips") :
