@@ -188,9 +188,11 @@ Expected<void> check_reach(const Chain& contour, const ToolPath& result, const T
         const Chain pass = segments(slit);
         passes.insert(passes.end(), pass.begin(), pass.end());
     }
+    const double least = 0.5 * std::max(tool.x, tool.y);
+    const Tool rounder{std::max(tool.x, least), std::max(tool.y, least)};
     for (const Segment& s : contour) {
         for (const double f : {0.0, 0.25, 0.5, 0.75}) {
-            if (tool_distance(tool, passes, point(s, f)) > 3) {
+            if (tool_distance(rounder, passes, point(s, f)) > 3) {
                 return refuse("kerf: the tool cannot enter the gap of the contour at " + place(point(s, f)) +
                               "; widen the gap or use a narrower kerf");
             }
@@ -227,7 +229,7 @@ Expected<ToolPath> tool_path(const Path& contour, const Kerf& kerf)
     if (kerf.x == 0 && kerf.y == 0) {
         return ToolPath{contour, {}};
     }
-    const Chain nominal = segments(contour);
+    const Chain nominal = simplified_short_runs(segments(contour));
     const Tool tool = tool_of(kerf);
     const auto slits = slits_of_one_pass(nominal, tool);
     if (!slits) {

@@ -26,6 +26,7 @@ struct ToolPath
 //! an ellipse and arcs become pairs of arcs within #kerf_tolerance. Segments
 //! shorter than #shortest_segment are left out, their neighbours meeting in a mitre, or are merged into a neighbour. A
 //! kerf of 0 in one direction only counts as 0.001 mm.
+//! Runs of lines shorter than that in the contour itself are simplified first, within 0.002 mm.
 //!
 //! A slit is a gap between two parallel lines joined at one end by a half circle or a line. When it is no wider than
 //! the kerf it becomes one open line along its middle, which cuts it as wide as the kerf; when it is wider by less
@@ -39,6 +40,6 @@ inline constexpr double shortest_segment = 0.05;
 //! mm, between the two passes along a slit.
 inline constexpr double narrowest_slit = 0.05;
 //! mm, of the arcs that stand for elliptic ones, where they need not be shorter than the shortest segment for it.
-inline constexpr double kerf_tolerance = 0.00002;
+inline constexpr double kerf_tolerance = 0.0001;
 
 } // namespace rhombloom

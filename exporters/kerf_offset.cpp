@@ -303,6 +303,25 @@ Expected<Chain> loop_from(const Chain& pieces, std::vector<bool>& used, std::siz
 //! \name Short segments
 //! \{
 
+//! mm that a chord may leave the short lines it stands for.
+constexpr double simplification = 0.002;
+
+//! The end of the longest chord from the start of contour[from] that stays near the vertices before it.
+std::size_t longest_chord(const Chain& contour, std::size_t from, std::size_t end)
+{
+    std::size_t best = from + 1;
+    for (std::size_t last = from + 2; last <= end; ++last) {
+        const Segment chord{contour[from].a, contour[last - 1].b, 0};
+        for (std::size_t i = from + 1; i < last; ++i) {
+            if (length(chord) < 1e-9 || distance(chord, contour[i].a) > simplification) {
+                return best;
+            }
+        }
+        best = last;
+    }
+    return best;
+}
+
 //! How far, in mm, neighbours may be extended to do without a short segment.
 constexpr double longest_mitre = 0.25;
 
@@ -367,7 +386,8 @@ double tool_distance(const Tool& tool, const std::vector<Segment>& contour, cons
     double nearest = 1e300;
     if (is_round(tool)) {
         for (const Segment& s : contour) {
-            nearest = std::min(nearest, distance(s, p) / tool.x);
+            const double least = (p - 0.5 * (s.a + s.b)).norm() - 0.5 * (s.b - s.a).norm();
+            nearest = least / tool.x < nearest ? std::min(nearest, distance(s, p) / tool.x) : nearest;
         }
         return nearest;
     }
@@ -403,6 +423,28 @@ Expected<std::vector<std::vector<Segment>>> offset_loops(const std::vector<Segme
         loops.push_back(std::move(*loop));
     }
     return loops;
+}
+
+std::vector<Segment> simplified_short_runs(const std::vector<Segment>& contour)
+{
+    Chain result;
+    const auto is_short_line = [&](const Segment& s) { return !is_arc(s) && length(s) < shortest_segment; };
+    for (std::size_t i = 0; i < contour.size();) {
+        std::size_t end = i;
+        while (end < contour.size() && is_short_line(contour[end])) {
+            ++end;
+        }
+        if (end < i + 2) {
+            result.push_back(contour[i++]);
+            continue;
+        }
+        for (; i < end;) {
+            const std::size_t next = longest_chord(contour, i, end);
+            result.push_back({contour[i].a, contour[next - 1].b, 0});
+            i = next;
+        }
+    }
+    return result;
 }
 
 std::vector<Segment> merged_short_segments(std::vector<Segment> loop)

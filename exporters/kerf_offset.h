@@ -25,6 +25,10 @@ double tool_distance(const Tool& tool, const std::vector<Segment>& contour, cons
 //! contour's sense; more than one when a gap closes. Refuses a contour whose pieces do not join.
 Expected<std::vector<std::vector<Segment>>> offset_loops(const std::vector<Segment>& contour, const Tool& tool);
 
+//! \brief The contour with chords, within 0.002 mm, instead of runs of lines shorter than #shortest_segment: curves
+//! that another program has cut to pieces.
+std::vector<Segment> simplified_short_runs(const std::vector<Segment>& contour);
+
 //! \brief The loop without segments shorter than #shortest_segment: neighbours are extended to meet, or brought
 //! together in the middle of the short one.
 std::vector<Segment> merged_short_segments(std::vector<Segment> loop);

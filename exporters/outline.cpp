@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "exporters/segment.h"
 
 namespace rhombloom {
 
@@ -297,7 +298,12 @@ Expected<Path> element_outline(const HookParameters& parameters)
     if (auto ok = check_closed_forms(parameters); !ok) {
         return tl::make_unexpected(ok.error());
     }
-    return closed_forms(parameters);
+    Path outline = closed_forms(parameters);
+    if (!is_simple(outline) || area(outline) <= 0) {
+        return refuse("hook: the contour crosses itself: make the finger width or the scoop depth smaller, or alpha "
+                      "nearer to 65 degrees");
+    }
+    return outline;
 }
 
 Vec2 scoop_point(const HookParameters& parameters, double t)

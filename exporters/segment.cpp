@@ -72,6 +72,13 @@ double angle_between(const Vec2& from, const Vec2& to, double near)
 //! How far, in mm, rounding may move the crossing of two segments that are tangent at their common end.
 constexpr double tangent_slack = 1e-5;
 
+//! An arc of at most a half circle lies in the circle over its chord; so do all of a path's segments.
+bool far_apart(const Segment& s, const Segment& t)
+{
+    const double reach = 0.5 * ((s.b - s.a).norm() + (t.b - t.a).norm()) + 1e-6;
+    return (0.5 * (s.a + s.b) - 0.5 * (t.a + t.b)).squaredNorm() > reach * reach;
+}
+
 bool touch_at_common_end_only(const Segment& s, const Segment& t)
 {
     if (tangent(s, 1).dot(tangent(t, 0)) < -1 + 1e-12 && is_arc(s) == is_arc(t)) {
@@ -85,6 +92,9 @@ bool touch_at_common_end_only(const Segment& s, const Segment& t)
 
 bool apart(const Segment& s, const Segment& t)
 {
+    if (far_apart(s, t)) {
+        return true;
+    }
     const bool ends_apart = distance(s, t.a) > 1e-9 && distance(s, t.b) > 1e-9 && distance(t, s.a) > 1e-9;
     return ends_apart && crossings(s, t).empty();
 }
@@ -185,6 +195,9 @@ std::vector<Vec2> carrier_crossings(const Segment& s, const Segment& t)
 
 std::vector<std::pair<double, double>> crossings(const Segment& s, const Segment& t)
 {
+    if (far_apart(s, t)) {
+        return {};
+    }
     const double slack_s = 1e-9 / length(s);
     const double slack_t = 1e-9 / length(t);
     std::vector<std::pair<double, double>> result;

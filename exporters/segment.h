@@ -55,7 +55,8 @@ Segment starting_at(const Segment& segment, const Vec2& p);
 //! \brief Where the whole lines or circles of two segments meet; none when they are parallel, concentric or apart.
 std::vector<Vec2> carrier_crossings(const Segment& s, const Segment& t);
 
-//! \brief Where two segments meet, as fractions on each; ends count, within 1e-9 mm.
+//! \brief Where two segments meet, as fractions on each; ends count, within 1e-9 mm. \pre arcs are at most half
+//! circles.
 std::vector<std::pair<double, double>> crossings(const Segment& s, const Segment& t);
 
 //! \brief A path's segments in order, without those of no length.

@@ -252,7 +252,7 @@ TEST(Kerf, DifferentWidthsCutLikeAnEllipse)
         double bound; //!< mm2
     };
     // The last ellipse is flatter than the slit's bottom is round.
-    const Case cases[] = {{{0.12, 0.1}, 3e-3}, {{0.1, 0.15}, 3e-3}, {{0.3, 0.25}, 6e-3}, {{0.4, 0.2}, 0.025}};
+    const Case cases[] = {{{0.12, 0.1}, 0.01}, {{0.1, 0.15}, 0.01}, {{0.3, 0.25}, 0.01}, {{0.4, 0.2}, 0.03}};
     const Path outline = outline_of(tests::table_elements()[1], *material("pp-0.3"));
     for (const Case& c : cases) {
         const auto result = tool_path(outline, c.kerf);
@@ -268,6 +268,28 @@ TEST(Kerf, AnEllipticCutOfASquareHasTheAreaOfItsMinkowskiSum)
     const auto result = tool_path(polygon({{0, 0}, {10, 0}, {10, 10}, {0, 10}}), {0.4, 0.2});
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_NEAR(area(result->contour), 100 + 2 * 10 * 0.2 + 2 * 10 * 0.1 + pi * 0.2 * 0.1, 1e-3);
+}
+
+TEST(Kerf, ACutThatIsFlatInOneDirectionStillWorks)
+{
+    const Path outline = *element_outline(hook_parameters(Element{}));
+    for (const Kerf kerf : {Kerf{0.2, 0}, Kerf{0, 0.1}}) {
+        const auto result = tool_path(outline, kerf);
+        ASSERT_TRUE(result) << result.error().message;
+        EXPECT_TRUE(is_simple(result->contour));
+        EXPECT_NEAR(bounds(result->contour).max.x() - bounds(outline).max.x(), kerf.x / 2, 2e-3);
+        EXPECT_NEAR(bounds(result->contour).max.y() - bounds(outline).max.y(), kerf.y / 2, 2e-3);
+    }
+}
+
+TEST(Kerf, ACurveCutToTinyLinesIsSimplifiedFirst)
+{
+    const Path outline = *element_outline(hook_parameters(Element{}));
+    const auto result = tool_path(polygon(flatten(outline, 1e-4)), {0.2, 0.2});
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_TRUE(is_simple(result->contour));
+    EXPECT_GE(shortest(result->contour), shortest_segment);
+    EXPECT_LT(deviation_from_clipper(outline, result->contour, 0.2), 0.1);
 }
 
 } // namespace rhombloom
