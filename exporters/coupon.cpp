@@ -6,6 +6,7 @@
 #include "core/text.h"
 #include "exporters/crop.h"
 #include "exporters/cut_drawing.h"
+#include "exporters/segment.h"
 #include "exporters/strokes.h"
 
 namespace rhombloom {
@@ -30,13 +31,20 @@ Path flat_on_x(const Path& contour)
     return placed(turned, 0, -turned.vertices.back().point);
 }
 
+//! Cutting close by a vertex leaves a segment that laser programs trip over.
+bool has_sliver(const Path& contour)
+{
+    const std::vector<Segment> all = segments(contour);
+    return std::any_of(all.begin(), all.end(), [](const Segment& s) { return length(s) < 2 * shortest_segment; });
+}
+
 //! Cropped by the first of a few parallel lines, from \p near to \p far, that cuts off exactly one piece.
 Expected<Strip> strip(const Path& outline, CropLine line, const Vec2& near, const Vec2& far)
 {
     constexpr int tries = 8;
     for (int i = 0; i <= tries; ++i) {
         line.point = near + (far - near) * (static_cast<double>(i) / tries);
-        if (auto part = cropped(outline, line)) {
+        if (auto part = cropped(outline, line); part && !has_sliver(*part)) {
             const Path flat = flat_on_x(*part);
             return Strip{flat, Vec2(flat.vertices.front().point.x() / 2, 1.2 * notch_width)};
         }
@@ -104,7 +112,8 @@ public:
         next_.x() = end.x() + spacing_;
         return offset;
     }
-    SheetSize used() const { return {right_ + margin_, top_ + margin_}; }
+    //! In whole millimetres.
+    SheetSize used() const { return {std::ceil(right_ + margin_), std::ceil(top_ + margin_)}; }
 
 private:
     SheetSize sheet_;
@@ -159,11 +168,13 @@ Fit add(Laid& laid, Shelves& shelves, const Strip& strip, const std::string& id,
     if (!offset) {
         return Fit::NoRoom;
     }
-    const auto marks = options.engraving == Engraving::On && strip.label != Vec2::Zero() ? label(strip, options.kerf_x)
-                                                                                         : std::vector<Path>{};
-    auto piece = laid_piece(strip.contour, marks, {0, false, *offset}, options);
+    const Placement placement = {0, false, *offset};
+    auto piece = Blank(strip.contour, {options.kerf_x, options.kerf_y}).laid(placement);
     if (!piece) {
         return Fit::NoSlit;
+    }
+    if (options.engraving == Engraving::On && strip.label != Vec2::Zero()) {
+        piece->engraved = rhombloom::laid(label(strip, options.kerf_x), placement);
     }
     laid.pieces.push_back(std::move(*piece));
     laid.ids.push_back(id);
@@ -189,24 +200,30 @@ Fit add_pair(Laid& laid, Shelves& shelves, const Strip& slot, const Strip& edge,
     return Fit::Placed;
 }
 
-std::string reading(const std::vector<double>& kerfs, const CutOptions& options)
+std::string pairs_text(const std::vector<double>& kerfs)
 {
-    std::string text = "Cut coupon first, in the material and with the settings of the sheets, and with the cutting "
-                       "program's own kerf offset switched off.\n"
-                       "1. Measure the square: it is drawn 50 mm wide for no kerf. If it is 49 or 51 mm, the program "
-                       "changed the scale. 50 mm minus what you measure is the kerf (full width of the cut).\n"
-                       "2. Each pair of strips with the same number of notches is one joint, drawn for one kerf:";
+    std::string text = "2. The two strips with the same number of notches are one joint, drawn for one kerf: ";
     for (std::size_t i = 0; i < kerfs.size(); ++i) {
-        text += (i == 0 ? " " : ", ") + std::to_string(i + 1) + (i == 0 ? " notch " : " notches ") + to_text(kerfs[i]) +
+        text += (i == 0 ? "" : ", ") + std::to_string(i + 1) + (i == 0 ? " notch " : " notches ") + to_text(kerfs[i]) +
                 " mm";
     }
-    text += ". Bend the long edge into the two hooks of the short side. The right pair slides in without force and "
-            "does not rattle.\n"
-            "3. Give its value: --kerf VALUE";
+    return text + ". Bend the long edge into the two hooks of the short side. The right pair slides in without force "
+                  "and does not rattle.\n";
+}
+
+std::string reading(const std::vector<double>& kerfs, const CutOptions& options)
+{
+    std::string text = "Cut the coupon first, in the material and with the settings of the sheets, and with the "
+                       "cutting program's own kerf offset switched off.\n"
+                       "1. Measure the square: it is drawn 50 mm wide, for no kerf. 50 mm minus what you measure is "
+                       "the kerf (the full width of the cut); more than 1 mm off means that the program changed the "
+                       "scale.\n";
+    text += kerfs.empty() ? "" : pairs_text(kerfs);
+    text += "3. Give the value that fits: --kerf VALUE";
     if (options.kerf_x == 0 && options.kerf_y == 0) {
         text += " (or leave --kerf away and enter it as the kerf offset of the cutting program: once, not twice)";
     }
-    return text + ". If every pair is too tight, give a wider --slit; if every pair rattles, a narrower one.\n";
+    return text + ". If every joint is too tight, give a wider --slit; if every joint rattles, a narrower one.\n";
 }
 
 } // namespace

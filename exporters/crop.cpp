@@ -1,14 +1,15 @@
 #include "exporters/crop.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
-#include "core/units.h"
+#include "exporters/segment.h"
 
 namespace rhombloom {
 
 namespace {
+
+using Chain = std::vector<Segment>;
 
 double height_over(const CropLine& line, const Vec2& p)
 {
@@ -16,106 +17,68 @@ double height_over(const CropLine& line, const Vec2& p)
     return line.direction.x() * to.y() - line.direction.y() * to.x();
 }
 
-//! Part [from, to] of a segment, as shares of its length.
-struct Part
+//! As much of the line as passes the contour.
+Segment across(const Path& contour, const CropLine& line)
 {
-    double from;
-    double to;
-};
-
-//! Where the segment is, at a share of its length.
-Vec2 point_at(const PathVertex& start, const Vec2& end, double share)
-{
-    const Vec2 chord = end - start.point;
-    if (start.bulge == 0) {
-        return start.point + share * chord;
-    }
-    const double sweep = 4 * std::atan(start.bulge);
-    // The chord to an intermediate point turns by half the rest of the sweep.
-    const double turn = -sweep * (1 - share) / 2;
-    const double scale = std::sin(sweep * share / 2) / std::sin(sweep / 2);
-    return start.point + scale * Vec2(std::cos(turn) * chord.x() - std::sin(turn) * chord.y(),
-                                      std::sin(turn) * chord.x() + std::cos(turn) * chord.y());
-}
-
-//! Shares of the segment's length at which it crosses the line.
-std::vector<double> crossings(const PathVertex& start, const Vec2& end, const CropLine& line)
-{
-    const double a = height_over(line, start.point);
-    const double b = height_over(line, end);
-    if (start.bulge == 0) {
-        return (a < 0) != (b < 0) ? std::vector<double>{a / (a - b)} : std::vector<double>{};
-    }
-    // Height over the line along the arc is offset + radius * cos(angle - up).
-    const double sweep = 4 * std::atan(start.bulge);
-    const Vec2 chord = end - start.point;
-    const Vec2 centre = (start.point + end) / 2 + Vec2(-chord.y(), chord.x()) / (2 * std::tan(sweep / 2));
-    const Vec2 radial = start.point - centre;
-    const double cosine = -height_over(line, centre) / radial.norm();
-    std::vector<double> shares;
-    if (std::abs(cosine) < 1) {
-        const double up = std::atan2(line.direction.x(), -line.direction.y());
-        for (const double sign : {-1.0, 1.0}) {
-            const double angle = up + sign * std::acos(cosine) - std::atan2(radial.y(), radial.x());
-            const double turned = std::remainder(angle - sweep / 2, two_pi) + sweep / 2;
-            if (const double share = turned / sweep; share > 0 && share <= 1) {
-                shares.push_back(share);
-            }
-        }
-        std::sort(shares.begin(), shares.end());
-    }
-    return shares;
+    const Box box = bounds(contour);
+    const double reach = (box.max - box.min).norm() + (line.point - box.min).norm();
+    return {line.point - reach * line.direction, line.point + reach * line.direction, 0};
 }
 
 //! The parts of one segment that lie left of the line.
-std::vector<Part> parts_left_of(const PathVertex& start, const Vec2& end, const CropLine& line)
+Chain parts_left_of(const Segment& segment, const CropLine& line, const Segment& cut)
 {
-    std::vector<double> ends = crossings(start, end, line);
-    ends.insert(ends.begin(), 0);
-    ends.push_back(1);
-    std::vector<Part> parts;
+    std::vector<double> ends = {0, 1};
+    for (const auto& [here, there] : crossings(segment, cut)) {
+        ends.push_back(std::clamp(here, 0.0, 1.0));
+    }
+    std::sort(ends.begin(), ends.end());
+    Chain parts;
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        const double middle = (ends[i] + ends[i + 1]) / 2;
-        if (ends[i + 1] > ends[i] && height_over(line, point_at(start, end, middle)) >= 0) {
-            parts.push_back({ends[i], ends[i + 1]});
+        const bool left = height_over(line, point(segment, (ends[i] + ends[i + 1]) / 2)) >= 0;
+        if (left && ends[i + 1] - ends[i] > 1e-9) {
+            parts.push_back(part(segment, ends[i], ends[i + 1]));
         }
     }
     return parts;
+}
+
+bool joined(const Chain& chain, const Segment& next)
+{
+    return (chain.back().b - next.a).norm() < 1e-6;
+}
+
+//! Kept segments, a new chain wherever the contour comes back over the line.
+std::vector<Chain> kept_chains(const Path& contour, const CropLine& line)
+{
+    const Segment cut = across(contour, line);
+    std::vector<Chain> chains;
+    for (const Segment& segment : segments(contour)) {
+        for (const Segment& kept : parts_left_of(segment, line, cut)) {
+            if (chains.empty() || !joined(chains.back(), kept)) {
+                chains.emplace_back();
+            }
+            chains.back().push_back(kept);
+        }
+    }
+    if (chains.size() > 1 && joined(chains.back(), chains.front().front())) { // across the contour's first vertex
+        chains.back().insert(chains.back().end(), chains.front().begin(), chains.front().end());
+        chains.erase(chains.begin());
+    }
+    return chains;
 }
 
 } // namespace
 
 Expected<Path> cropped(const Path& contour, const CropLine& line)
 {
-    // Chains of kept segments: a new one starts wherever the contour comes back over the line.
-    std::vector<std::vector<PathVertex>> chains;
-    bool inside = false;
-    const std::size_t n = contour.vertices.size();
-    for (std::size_t i = 0; i < n; ++i) {
-        const PathVertex& start = contour.vertices[i];
-        const Vec2& end = contour.vertices[(i + 1) % n].point;
-        const double sweep = 4 * std::atan(start.bulge);
-        double reached = 0;
-        for (const Part& part : parts_left_of(start, end, line)) {
-            if (!inside || part.from > reached) {
-                chains.push_back({{point_at(start, end, part.from), 0}});
-            }
-            chains.back().back().bulge = start.bulge == 0 ? 0 : std::tan(sweep * (part.to - part.from) / 4);
-            chains.back().push_back({point_at(start, end, part.to), 0});
-            inside = true;
-            reached = part.to;
-        }
-        inside = inside && reached == 1;
-    }
-    if (chains.size() == 2 && inside) { // the contour's first vertex is inside: both chains are one
-        chains[1].pop_back();
-        chains[1].insert(chains[1].end(), chains[0].begin(), chains[0].end());
-        chains.erase(chains.begin());
-    }
-    if (chains.size() != 1 || chains[0].size() < 2) {
+    const std::vector<Chain> chains = kept_chains(contour, line);
+    if (chains.size() != 1 || joined(chains[0], chains[0].front())) {
         return refuse("the cropping line does not cross the contour exactly twice: move it");
     }
-    return Path{chains[0], true};
+    Chain closed = chains[0];
+    closed.push_back({closed.back().b, closed.front().a, 0});
+    return closed_path(closed);
 }
 
 Path notched(const Path& contour, int count, double width)

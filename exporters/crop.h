@@ -17,9 +17,8 @@ struct CropLine
 //! twice: the part would not be one piece with one cut edge.
 Expected<Path> cropped(const Path& contour, const CropLine& line);
 
-//! \brief Cut \p count V notches, \p width wide and three quarters of that deep, into the middle of the last segment, two widths
-//! apart.
-//! \pre The last segment is straight and long enough.
+//! \brief Cut \p count V notches, \p width wide and three quarters of that deep, into the middle of the last segment,
+//! two widths apart. \pre The last segment is straight and long enough.
 Path notched(const Path& contour, int count, double width);
 
 } // namespace rhombloom

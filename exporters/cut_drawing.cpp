@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "exporters/cut_order.h"
-#include "exporters/kerf.h"
 #include "exporters/strokes.h"
+#include "exporters/svg.h"
 
 namespace rhombloom {
 
@@ -13,20 +13,6 @@ namespace {
 
 constexpr double reference_inset = 1;  // mm, so that it does not lie on the sheet's border
 constexpr double neighbour_reach = 10; // mm, pieces nearer than this warm each other
-
-Path laid(const Path& path, const Placement& placement)
-{
-    return placed(placement.mirrored ? mirrored(path) : path, placement.angle, placement.offset);
-}
-
-std::vector<Path> laid(const std::vector<Path>& paths, const Placement& placement)
-{
-    std::vector<Path> result;
-    for (const Path& path : paths) {
-        result.push_back(laid(path, placement));
-    }
-    return result;
-}
 
 Path line(const Vec2& from, const Vec2& to)
 {
@@ -40,11 +26,16 @@ Path rectangle(const Vec2& corner, double width, double height)
     return {{{corner, 0}, {corner + x, 0}, {corner + x + y, 0}, {corner + y, 0}}, true};
 }
 
+Path named(Path path, const std::string& id)
+{
+    path.id = id;
+    return path;
+}
+
 void append(std::vector<Path>& paths, const std::vector<Path>& more, const std::string& id)
 {
     for (std::size_t i = 0; i < more.size(); ++i) {
-        paths.push_back(more[i]);
-        paths.back().id = id + "-" + std::to_string(i + 1);
+        paths.push_back(named(more[i], id + "-" + std::to_string(i + 1)));
     }
 }
 
@@ -90,6 +81,7 @@ bool touches(const Path& square, const std::vector<LaidPiece>& pieces)
 Path reference_square(const std::vector<LaidPiece>& pieces, const SheetSize& sheet)
 {
     constexpr double sizes[] = {50, 20, 10}; // mm
+    const char* id = "reference-square";
     for (const double size : sizes) {
         const double right = sheet.width - reference_inset - size;
         const double top = sheet.height - reference_inset - size;
@@ -97,11 +89,11 @@ Path reference_square(const std::vector<LaidPiece>& pieces, const SheetSize& she
                                    Vec2(reference_inset, reference_inset)}) {
             const Path square = rectangle(corner, size, size);
             if (corner.minCoeff() > 0 && !touches(square, pieces)) {
-                return square;
+                return named(square, id);
             }
         }
     }
-    return rectangle(Vec2::Constant(reference_inset), sizes[2], sizes[2]);
+    return named(rectangle(Vec2::Constant(reference_inset), sizes[2], sizes[2]), id);
 }
 
 std::vector<std::size_t> order_of(const std::vector<LaidPiece>& pieces)
@@ -115,15 +107,27 @@ std::vector<std::size_t> order_of(const std::vector<LaidPiece>& pieces)
     return cutting_order(starts, neighbours(contours, neighbour_reach), Vec2::Zero());
 }
 
-void add_annotations(Drawing& drawing, const std::vector<LaidPiece>& pieces, ColourPreset colours)
+struct LayerKind
 {
-    const SheetSize sheet = {drawing.width, drawing.height};
-    Path border = rectangle(Vec2::Zero(), sheet.width, sheet.height);
-    border.id = "sheet";
-    Path square = reference_square(pieces, sheet);
-    square.id = "reference-square";
-    drawing.layers.push_back({"SHEET", LayerUse::Sheet, cut_colour(colours, LayerUse::Sheet), {border}});
-    drawing.layers.push_back({"REFERENCE", LayerUse::Reference, cut_colour(colours, LayerUse::Reference), {square}});
+    const char* name;
+    LayerUse use;
+    const char* purpose;
+};
+
+//! In the order in which they are done.
+constexpr LayerKind layer_kinds[] = {
+    {"ENGRAVE", LayerUse::Engrave, "engraves lines"},
+    {"CUT_INNER", LayerUse::CutInner, "cuts slits"},
+    {"CUT_OUTER", LayerUse::CutOuter, "cuts outlines"},
+    {"SHEET", LayerUse::Sheet, "shows the sheet, not for the machine"},
+    {"REFERENCE", LayerUse::Reference, "is a square to measure on the screen, not for the machine"},
+};
+
+bool has_layer(const CutOptions& options, LayerUse use)
+{
+    // K40 Whisperer would engrave the border: it has no colour to ignore.
+    const bool annotation = use == LayerUse::Sheet || use == LayerUse::Reference;
+    return !annotation || (options.annotations && options.colours != ColourPreset::K40);
 }
 
 } // namespace
@@ -155,7 +159,7 @@ Vec2 piece_centre(const HookParameters& parameters)
 
 std::vector<Path> front_marks(const HookParameters& parameters, const std::string& label)
 {
-    const double height = std::clamp(parameters.la / 16, 3.0, 8.0);
+    const double height = std::clamp(parameters.la / 16, std::min(3.0, parameters.la / 13), 8.0);
     const Vec2 centre = piece_centre(parameters);
     std::vector<Path> marks;
     const Vec2 base = centre + Vec2(-strokes_width(label, height) / 2, 0.25 * height);
@@ -169,37 +173,67 @@ std::vector<Path> front_marks(const HookParameters& parameters, const std::strin
     return marks;
 }
 
-Expected<LaidPiece> laid_piece(const Path& outline, const std::vector<Path>& marks, const Placement& placement,
-                               const CutOptions& options)
+Blank::Blank(Path contour, const Kerf& kerf) : contour_(std::move(contour)), kerf_(kerf) {}
+
+Expected<LaidPiece> Blank::laid(const Placement& placement)
 {
-    LaidPiece piece;
-    piece.finished = laid(outline, placement);
-    piece.engraved = laid(marks, placement);
-    if (options.kerf_x == 0 && options.kerf_y == 0) {
-        piece.outer = begun_on_longest_line(piece.finished);
-        return piece;
+    expects(!placement.mirrored, "Blank::laid: pieces are not mirrored");
+    // An unequal kerf is an ellipse that does not turn with the piece.
+    const double angle = kerf_.x == kerf_.y ? 0 : placement.angle;
+    auto found = tool_paths_.find(angle);
+    if (found == tool_paths_.end()) {
+        auto tool = tool_path(placed(contour_, angle, Vec2::Zero()), kerf_);
+        if (!tool) {
+            return tl::make_unexpected(tool.error());
+        }
+        found = tool_paths_.emplace(angle, std::move(*tool)).first;
     }
-    return refuse("the kerf cannot be compensated yet: give 0 and let the cutting program do it");
+    const double rest = placement.angle - angle;
+    LaidPiece piece;
+    piece.finished = placed(contour_, placement.angle, placement.offset);
+    piece.outer = begun_on_longest_line(placed(found->second.contour, rest, placement.offset));
+    piece.inner = rhombloom::laid(found->second.slits, {rest, false, placement.offset});
+    return piece;
+}
+
+std::vector<Path> laid(const std::vector<Path>& paths, const Placement& placement)
+{
+    std::vector<Path> result;
+    for (const Path& path : paths) {
+        result.push_back(placed(path, placement.angle, placement.offset));
+    }
+    return result;
+}
+
+std::string layers_text(const CutOptions& options)
+{
+    std::string text;
+    for (const LayerKind& kind : layer_kinds) {
+        if (has_layer(options, kind.use)) {
+            text += (text.empty() ? "" : ", ") + std::string(kind.name) + " " +
+                    colour_text(cut_colour(options.colours, kind.use)) + " " + kind.purpose;
+        }
+    }
+    return text;
 }
 
 Drawing cut_drawing(const std::vector<LaidPiece>& pieces, const std::vector<std::string>& ids, const SheetSize& sheet,
                     const CutOptions& options)
 {
-    const auto layer = [&](const char* name, LayerUse use) {
-        return Layer{name, use, cut_colour(options.colours, use), {}};
-    };
     Drawing drawing{sheet.width, sheet.height, {}, {}};
-    drawing.layers = {layer("ENGRAVE", LayerUse::Engrave), layer("CUT_INNER", LayerUse::CutInner),
-                      layer("CUT_OUTER", LayerUse::CutOuter)};
+    for (const LayerKind& kind : layer_kinds) {
+        if (has_layer(options, kind.use)) {
+            drawing.layers.push_back({kind.name, kind.use, cut_colour(options.colours, kind.use), {}});
+        }
+    }
     for (const std::size_t i : order_of(pieces)) {
         append(drawing.layers[0].paths, pieces[i].engraved, ids[i] + "-mark");
         append(drawing.layers[1].paths, pieces[i].inner, ids[i] + "-slit");
-        drawing.layers[2].paths.push_back(pieces[i].outer);
-        drawing.layers[2].paths.back().id = ids[i];
+        drawing.layers[2].paths.push_back(named(pieces[i].outer, ids[i]));
     }
-    // K40 Whisperer would engrave the border: it has no colour to ignore.
-    if (options.annotations && options.colours != ColourPreset::K40) {
-        add_annotations(drawing, pieces, options.colours);
+    if (has_layer(options, LayerUse::Sheet)) {
+        drawing.layers[3].paths = {named(rectangle(Vec2::Zero(), sheet.width, sheet.height), "sheet")};
+        drawing.layers[4].paths = {reference_square(pieces, sheet)};
     }
     return drawing;
 }

@@ -6,6 +6,7 @@
 #include "core/text.h"
 #include "exporters/coupon.h"
 #include "exporters/cut_drawing.h"
+#include "exporters/sha256.h"
 #include "exporters/svg.h"
 #include "exporters/template_pdf.h"
 
@@ -91,27 +92,6 @@ std::string piece_label(int i, int elements)
     return i < elements ? std::to_string(i + 1) : "S" + std::to_string(i - elements + 1);
 }
 
-std::vector<std::string> settings(const Element& element, const CutOptions& options)
-{
-    const auto mm = [](double value) { return to_text(value) + " mm"; };
-    std::vector<std::string> notes = {
-        "made with: rhombloom",
-        "units: 1 = 1 mm",
-        "element: la " + mm(element.la) + ", lb " + mm(element.lb) + ", alpha " + to_fixed(degrees(element.alpha), 4) +
-            " deg, thickness " + mm(element.thickness),
-        "machine: " + (options.machine.empty() ? "any" : options.machine),
-        "margin: " + mm(options.margin),
-        "spacing: " + mm(options.spacing) + " between finished edges",
-        options.kerf_x == 0 && options.kerf_y == 0
-            ? "kerf: 0 mm, the lines are the finished edges; let the cutting program compensate"
-            : "kerf: " + mm(options.kerf_x) + " in x, " + mm(options.kerf_y) +
-                  " in y, full width, compensated; do not compensate again",
-        "order: engrave, inner, outer",
-    };
-    notes.insert(notes.end(), options.notes.begin(), options.notes.end());
-    return notes;
-}
-
 //! The marks turned by half about the piece's centre if they would stand on their head on the sheet.
 std::vector<Path> upright(std::vector<Path> marks, const HookParameters& parameters, const Placement& placement)
 {
@@ -130,28 +110,81 @@ struct Job
     const HookParameters& parameters;
     const CutOptions& options;
     Path outline;
+    Blank blank;
     int elements;
     int spares;
 };
 
-Expected<Drawing> sheet_drawing(const Job& job, const Nesting& nesting, std::size_t index, int first)
+std::string mm(double value)
+{
+    return to_text(value) + " mm";
+}
+
+std::string speeds_text(const Speeds& speeds)
+{
+    return "cutting " + to_text(speeds.cut) + " mm/s, engraving " + to_text(speeds.engrave) + " mm/s, travel " +
+           to_text(speeds.travel) + " mm/s, acceleration " + to_text(speeds.acceleration) + " mm/s2, " +
+           to_text(speeds.pierce) + " s per start";
+}
+
+//! Tells apart files of elements that look alike.
+std::string checksum(const Path& outline)
+{
+    std::string text;
+    for (const PathVertex& v : outline.vertices) {
+        text += to_fixed(v.point.x(), 4) + " " + to_fixed(v.point.y(), 4) + " " + to_fixed(v.bulge, 4) + "\n";
+    }
+    return sha256(text).substr(0, 16);
+}
+
+std::string kerf_text(const CutOptions& options)
+{
+    if (options.kerf_x == 0 && options.kerf_y == 0) {
+        return "0 mm, the lines are the finished edges; let the cutting program compensate";
+    }
+    return mm(options.kerf_x) + " in x, " + mm(options.kerf_y) +
+           " in y, full width, compensated in this file; do not compensate again";
+}
+
+//! Recorded in every file.
+std::vector<std::string> settings(const Job& job)
+{
+    const Element& e = job.element;
+    std::vector<std::string> notes = {
+        "made with: rhombloom",
+        "units: 1 = 1 mm",
+        "element: la " + mm(e.la) + ", lb " + mm(e.lb) + ", alpha " + to_fixed(degrees(e.alpha), 4) +
+            " deg, thickness " + mm(e.thickness) + ", outline " + checksum(job.outline),
+        "machine: " + (job.options.machine.empty() ? "any" : job.options.machine),
+        "margin: " + mm(job.options.margin),
+        "spacing: " + mm(job.options.spacing) + " between finished edges",
+        "kerf: " + kerf_text(job.options),
+        "order: engrave, inner, outer",
+        "layers: " + layers_text(job.options),
+    };
+    notes.insert(notes.end(), job.options.notes.begin(), job.options.notes.end());
+    return notes;
+}
+
+Expected<Drawing> sheet_drawing(Job& job, const Nesting& nesting, std::size_t index, int first)
 {
     const Sheet& sheet = nesting.sheets[index];
     std::vector<LaidPiece> pieces;
     std::vector<std::string> ids;
     for (const Placement& placement : sheet.placements) {
         const std::string label = piece_label(first + static_cast<int>(ids.size()), job.elements);
-        const std::vector<Path> marks =
-            job.options.engraving == Engraving::On ? front_marks(job.parameters, label) : std::vector<Path>{};
-        auto piece = laid_piece(job.outline, upright(marks, job.parameters, placement), placement, job.options);
+        auto piece = job.blank.laid(placement);
         if (!piece) {
             return tl::make_unexpected(piece.error());
+        }
+        if (job.options.engraving == Engraving::On) {
+            piece->engraved = laid(upright(front_marks(job.parameters, label), job.parameters, placement), placement);
         }
         pieces.push_back(std::move(*piece));
         ids.push_back("element-" + label);
     }
     Drawing drawing = cut_drawing(pieces, ids, {sheet.width, sheet.height}, job.options);
-    drawing.notes = settings(job.element, job.options);
+    drawing.notes = settings(job);
     drawing.notes.push_back("sheet: " + std::to_string(index + 1) + " of " + std::to_string(nesting.sheets.size()) +
                             ", " + to_text(sheet.width) + " x " + to_text(sheet.height) + " mm, " +
                             std::to_string(pieces.size()) + " pieces");
@@ -181,6 +214,8 @@ CutReport first_report(const Job& job, const Nesting& nesting)
     report.sheets = static_cast<int>(nesting.sheets.size());
     report.utilisation = nesting.utilisation;
     report.speeds = job.options.speeds;
+    report.speeds_text = speeds_text(report.speeds);
+    report.layers_text = layers_text(job.options);
     const double volume = std::abs(area(job.outline)) * job.parameters.thickness * (job.elements + job.spares);
     report.mass_g = volume * job.options.density / 1000;
     const Vec2 left = nesting.sheets.back().offcut.max - nesting.sheets.back().offcut.min;
@@ -195,24 +230,24 @@ void add_cost(CutReport& report, const CutOptions& options)
     }
 }
 
-Expected<void> add_coupon(CutDrawings& result, const Job& job)
+void add_coupon(CutDrawings& result, const Job& job)
 {
     auto strips = coupon(job.parameters, job.options);
     if (!strips) {
-        return tl::make_unexpected(strips.error());
+        result.report.warnings.push_back(strips.error().message);
+        return;
     }
     result.coupon = std::move(strips->drawing);
-    result.coupon.notes = settings(job.element, job.options);
-    result.coupon.notes.push_back(
+    result.coupon->notes = settings(job);
+    result.coupon->notes.push_back(
         "coupon: pairs of strips with 1, 2, ... notches, each for another kerf; the square for none");
     result.report.coupon_text = strips->text;
     if (!strips->warning.empty()) {
         result.report.warnings.push_back(strips->warning);
     }
-    return {};
 }
 
-Expected<void> add_sheets(CutDrawings& result, const Job& job, const Nesting& nesting)
+Expected<void> add_sheets(CutDrawings& result, Job& job, const Nesting& nesting)
 {
     int first = 0;
     for (std::size_t i = 0; i < nesting.sheets.size(); ++i) {
@@ -253,7 +288,8 @@ Expected<CutDrawings> cut_drawings(const Element& element, const HookParameters&
         return tl::make_unexpected(outline.error());
     }
     const int spares = static_cast<int>(std::ceil(count * options.spares - 1e-9));
-    const Job job = {element, parameters, options, std::move(*outline), count, spares};
+    const Kerf kerf = {options.kerf_x, options.kerf_y};
+    Job job = {element, parameters, options, *outline, Blank(*outline, kerf), count, spares};
     const auto nesting = lay_out(job.outline, flatten_tolerance(parameters), count + spares, options);
     if (!nesting) {
         return tl::make_unexpected(nesting.error());
@@ -262,9 +298,7 @@ Expected<CutDrawings> cut_drawings(const Element& element, const HookParameters&
     if (auto ok = add_sheets(result, job, *nesting); !ok) {
         return tl::make_unexpected(ok.error());
     }
-    if (auto ok = add_coupon(result, job); !ok) {
-        return tl::make_unexpected(ok.error());
-    }
+    add_coupon(result, job);
     return result;
 }
 
@@ -279,7 +313,9 @@ Expected<CutFiles> cut_files(const Element& element, const HookParameters& param
     for (std::size_t i = 0; i < drawings->sheets.size(); ++i) {
         add_drawing(result.files, "sheet-" + two_digits(i + 1), drawings->sheets[i], options);
     }
-    add_drawing(result.files, "coupon", drawings->coupon, options);
+    if (drawings->coupon) {
+        add_drawing(result.files, "coupon", *drawings->coupon, options);
+    }
     auto pdf =
         element_outline(parameters).and_then([&](const Path& outline) { return template_pdf(outline, options.paper); });
     if (!pdf) {

@@ -68,14 +68,16 @@ struct CutReport
     std::optional<double> cost = {};
     SheetSize remnant = {};       //!< left of the last sheet; 0 x 0 when nothing is
     std::string coupon_text = {}; //!< for the README: how to read the coupon and which option to set
+    std::string layers_text = {}; //!< for the README: name, colour and use of each layer, in cutting order
+    std::string speeds_text = {}; //!< for the README: what the minutes assume
     std::vector<std::string> warnings = {};
 };
 
-//! What cut_files() writes, before it is text.
+//! What cut_files() writes, before it becomes text.
 struct CutDrawings
 {
     std::vector<Drawing> sheets;
-    Drawing coupon;
+    std::optional<Drawing> coupon; //!< none when the sheet is too small for it; a warning says so
     CutReport report;
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <optional>
+#include <utility>
 
 #include "core/text.h"
 
@@ -42,6 +43,13 @@ constexpr Machine presets[] = {
     {"a4", "A4 by hand", 210, 297, 6.35, LightBurn, true, r2000, hand},
     {"a3", "A3 by hand", 297, 420, 6.35, LightBurn, true, r2000, hand},
     {"letter", "Letter by hand", 215.9, 279.4, 6.35, LightBurn, true, r2000, hand},
+};
+
+//! What people say of machines that come with one mat.
+constexpr std::pair<std::string_view, std::string_view> short_names[] = {
+    {"cricut", "cricut-12x12"},          {"portrait", "silhouette-portrait"},
+    {"cameo", "silhouette-cameo-12x12"}, {"silhouette-cameo", "silhouette-cameo-12x12"},
+    {"speedy-100", "trotec-speedy-100"},
 };
 
 //! Lower case, with words joined by one '-'.
@@ -96,7 +104,10 @@ std::span<const Machine> machines()
 
 Expected<Machine> find_machine(std::string_view name)
 {
-    const std::string wanted = normal_name(name);
+    std::string wanted = normal_name(name);
+    for (const auto& [short_name, full] : short_names) {
+        wanted = wanted == short_name ? std::string(full) : wanted;
+    }
     std::string names;
     for (const Machine& machine : presets) {
         if (machine.name == wanted) {

@@ -158,6 +158,25 @@ void clean_objects(QPDF& pdf)
     }
 }
 
+//! What cairo leaves out of fonts with more than the Latin letters and PDF/A-1 asks for: glyph numbers are character
+//! numbers, and which of them the subset has (all, counted by their widths).
+void complete_cid_fonts(QPDF& pdf)
+{
+    for (QPDFObjectHandle font : pdf.getAllObjects()) {
+        if (!font.isDictionary() || !font.getKey("/Subtype").isName() ||
+            font.getKey("/Subtype").getName() != "/CIDFontType2") {
+            continue;
+        }
+        font.replaceKey("/CIDToGIDMap", name("/Identity"));
+        QPDFObjectHandle widths = font.getKey("/W").getArrayItem(1);
+        std::string bits(static_cast<std::size_t>(widths.getArrayNItems() + 7) / 8, '\0');
+        for (int cid = 0; cid < widths.getArrayNItems(); ++cid) {
+            bits[cid / 8] = static_cast<char>(bits[cid / 8] | (0x80 >> cid % 8));
+        }
+        font.getKey("/FontDescriptor").replaceKey("/CIDSet", QPDFObjectHandle::newStream(&pdf, bits));
+    }
+}
+
 //! Walks the structure tree in its order.
 void set_alternatives(QPDFObjectHandle node, const std::vector<std::string>& texts, std::size_t& next)
 {
@@ -187,6 +206,7 @@ std::string written(QPDF& pdf)
     writer.setCompressStreams(true);
     writer.forcePDFVersion("1.4");
     writer.setDeterministicID(true);
+    writer.setNewlineBeforeEndstream(true); // PDF/A-1 wants the end of line
     writer.write();
     const auto buffer = writer.getBufferSharedPointer();
     return {reinterpret_cast<const char*>(buffer->getBuffer()), buffer->getSize()};
@@ -200,6 +220,7 @@ std::string finish_pdf(const std::string& bytes, const DocumentInfo& info)
     pdf.setSuppressWarnings(true); // cairo 1.16 names a group twice in the resources of a page that shows it twice
     pdf.processMemoryFile("booklet", bytes.data(), bytes.size());
     clean_objects(pdf);
+    complete_cid_fonts(pdf);
     set_info(pdf, info);
     set_metadata(pdf, info);
     set_catalogue(pdf, info);

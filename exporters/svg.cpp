@@ -37,14 +37,10 @@ std::string escaped(const std::string& text)
     return result;
 }
 
-std::string colour(unsigned rgb)
+//! As the file has it. Radii must fit the rounded ends: half circles are sensitive to the last digit.
+Vec2 rounded(const Vec2& p)
 {
-    constexpr char digits[] = "0123456789abcdef";
-    std::string text = "#";
-    for (int shift = 20; shift >= 0; shift -= 4) {
-        text += digits[(rgb >> shift) & 15];
-    }
-    return text;
+    return Vec2(std::round(p.x() * 1e5) / 1e5, std::round(p.y() * 1e5) / 1e5);
 }
 
 //! The page has y down, the drawing y up.
@@ -58,9 +54,10 @@ std::string segment(const PathVertex& from, const Vec2& to, double height)
     if (from.bulge == 0) {
         return "L" + point(to, height);
     }
-    const double radius = (to - from.point).norm() * (1 + from.bulge * from.bulge) / (4 * std::abs(from.bulge));
+    const double chord = (rounded(to) - rounded(from.point)).norm();
+    const double radius = chord * (1 + from.bulge * from.bulge) / (4 * std::abs(from.bulge));
     // Never the large arc: arcs are at most half circles. Counter-clockwise with y up is sweep 0 with y down.
-    const std::string r = to_fixed(radius, 7);
+    const std::string r = to_fixed(radius, 9);
     return "A" + r + " " + r + " 0 0 " + (from.bulge > 0 ? "0 " : "1 ") + point(to, height);
 }
 
@@ -89,7 +86,7 @@ std::string layer_text(const Layer& layer, double height, double stroke_width)
             continue;
         }
         const std::string id = path.id.empty() ? name + "-" + std::to_string(i + 1) : escaped(path.id);
-        text += "<path id=\"" + id + "\" fill=\"none\" stroke=\"" + colour(layer.rgb) + "\" stroke-width=\"" +
+        text += "<path id=\"" + id + "\" fill=\"none\" stroke=\"" + colour_text(layer.rgb) + "\" stroke-width=\"" +
                 number(stroke_width) + "\" d=\"" + path_data(path, height) + "\"/>\n";
     }
     return text + "</g>\n";
@@ -105,6 +102,16 @@ std::string metadata(const std::vector<std::string>& notes)
 }
 
 } // namespace
+
+std::string colour_text(unsigned rgb)
+{
+    constexpr char digits[] = "0123456789abcdef";
+    std::string text = "#";
+    for (int shift = 20; shift >= 0; shift -= 4) {
+        text += digits[(rgb >> shift) & 15];
+    }
+    return text;
+}
 
 std::string svg(const Drawing& drawing, const SvgOptions& options)
 {

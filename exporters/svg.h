@@ -18,4 +18,7 @@ struct SvgOptions
 //! layer; its paths also carry the layer's colour, because most programs go by colour. The notes are in `<metadata>`.
 std::string svg(const Drawing& drawing, const SvgOptions& options = {});
 
+//! \brief "#rrggbb".
+std::string colour_text(unsigned rgb);
+
 } // namespace rhombloom

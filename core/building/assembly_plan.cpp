@@ -7,10 +7,9 @@ namespace rhombloom {
 AssemblyPlan assembly_plan(const Replay& replay, const Element& element, Order order)
 {
     const BuildHistory history = build_history(replay, element);
-    if (order == Order::Best) {
-        return best_plan(replay, element, history);
-    }
-    return finish_plan(replay, element, history, paper_order(replay, history), Order::Paper);
+    StageCoverage coverage(replay);
+    const PlanSources sources{replay, element, history, coverage};
+    return order == Order::Best ? best_plan(sources) : finish_plan(sources, paper_order(sources), Order::Paper);
 }
 
 } // namespace rhombloom

@@ -62,9 +62,9 @@ int chapter_of(const BuildState& state, const BuildHistory& history, const Targe
     return state.last < 0 ? 0 : history.component[state.last];
 }
 
-AssemblyPlan finish_plan(const Replay& replay, const Element& element, const BuildHistory& history,
-                         std::vector<Step> steps, Order order)
+AssemblyPlan finish_plan(const PlanSources& sources, std::vector<Step> steps, Order order)
 {
+    const BuildHistory& history = sources.history;
     std::map<int, int> number; // temporary element -> its number in the plan
     AssemblyPlan plan;
     plan.order = order;
@@ -87,7 +87,7 @@ AssemblyPlan finish_plan(const Replay& replay, const Element& element, const Bui
         }
     }
     plan.steps = std::move(steps);
-    plan.scorecard = scorecard(replay, element, plan);
+    plan.scorecard = scorecard(sources.replay, sources.element, plan, sources.coverage);
     return plan;
 }
 

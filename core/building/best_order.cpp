@@ -25,17 +25,14 @@ double cost(const Scorecard& s, const Scorecard& paper)
 
 struct Search
 {
-    const Replay& replay;
-    const Element& element;
-    const BuildHistory& history;
+    const PlanSources& sources;
     Scorecard paper;
-    AssemblyPlan best;
+    AssemblyPlan best = {};
     double best_cost = 1e300;
 
     bool consider(const std::vector<char>& closed, const Taste& taste)
     {
-        AssemblyPlan plan =
-            finish_plan(replay, element, history, greedy_order(replay, history, closed, taste), Order::Best);
+        AssemblyPlan plan = finish_plan(sources, greedy_order(sources, closed, taste), Order::Best);
         const double its_cost = cost(plan.scorecard, paper);
         if (its_cost >= best_cost - 1e-9) {
             return false;
@@ -46,9 +43,10 @@ struct Search
     }
 };
 
+//! Closes a target only where that pays.
 std::vector<char> choose_closings(Search& search, const Taste& taste)
 {
-    const std::size_t targets = search.history.targets.size();
+    const std::size_t targets = search.sources.history.targets.size();
     std::vector<char> closed(targets, 0);
     search.consider(closed, taste);
     for (std::size_t t = 0; t + 1 < targets; ++t) {
@@ -62,10 +60,9 @@ std::vector<char> choose_closings(Search& search, const Taste& taste)
 
 } // namespace
 
-AssemblyPlan best_plan(const Replay& replay, const Element& element, const BuildHistory& history)
+AssemblyPlan best_plan(const PlanSources& sources)
 {
-    const AssemblyPlan paper = finish_plan(replay, element, history, paper_order(replay, history), Order::Paper);
-    Search search{replay, element, history, paper.scorecard, {}};
+    Search search{sources, finish_plan(sources, paper_order(sources), Order::Paper).scorecard};
     const std::vector<char> closed = choose_closings(search, {});
     for (const double view : {0.0, 0.4, 0.8, 1.5, 2.5}) {
         for (const double last : {0.1, 0.5}) {

@@ -128,15 +128,15 @@ std::vector<char> left_open(const BuildHistory& history, std::size_t target, con
 
 } // namespace
 
-std::vector<Step> greedy_order(const Replay& replay, const BuildHistory& history, const std::vector<char>& closed,
-                               const Taste& taste)
+std::vector<Step> greedy_order(const PlanSources& sources, const std::vector<char>& closed, const Taste& taste)
 {
+    const BuildHistory& history = sources.history;
     BuildState state = empty_state(history);
     int view = -1;
     for (std::size_t t = 0; t < history.targets.size(); ++t) {
         const Target target = without(history.targets[t], left_open(history, t, closed));
         reopen(state, target, chapter_of(state, history, target));
-        Sight sight(stage_surface(replay, target.stage));
+        Sight sight(sources.coverage(target.stage));
         Greedy greedy(history, target, taste, sight, state, view);
         for (auto waiting = batches(state, history, target); !waiting.empty();
              waiting = batches(state, history, target)) {

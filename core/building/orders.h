@@ -5,9 +5,18 @@
 
 namespace rhombloom {
 
+//! What every order is made from.
+struct PlanSources
+{
+    const Replay& replay;
+    const Element& element;
+    const BuildHistory& history;
+    StageCoverage& coverage;
+};
+
 //! \brief The paper's order: first modelled, first built; each component spirals through its layers; every closed
 //! shape is closed and reopened where the next component joins (Sec. 5).
-std::vector<Step> paper_order(const Replay& replay, const BuildHistory& history);
+std::vector<Step> paper_order(const PlanSources& sources);
 
 //! \brief Elements of a target that are built in one go: of one component and connected.
 std::vector<std::vector<int>> batches(const BuildState& state, const BuildHistory& history, const Target& target);
@@ -28,14 +37,12 @@ struct Taste
 
 //! \brief Greedy order: most built neighbours first, in the view that is held, beside the last element.
 //! \param closed by target: are its temporary elements built and removed again (else the shape stays open there)?
-std::vector<Step> greedy_order(const Replay& replay, const BuildHistory& history, const std::vector<char>& closed,
-                               const Taste& taste);
+std::vector<Step> greedy_order(const PlanSources& sources, const std::vector<char>& closed, const Taste& taste);
 
 //! \brief The best plan found: several tastes and choices of what to close, scored (see the source).
-AssemblyPlan best_plan(const Replay& replay, const Element& element, const BuildHistory& history);
+AssemblyPlan best_plan(const PlanSources& sources);
 
 //! \brief A plan of these steps, with the temporary elements it uses renumbered without gaps, and its scorecard.
-AssemblyPlan finish_plan(const Replay& replay, const Element& element, const BuildHistory& history,
-                         std::vector<Step> steps, Order order);
+AssemblyPlan finish_plan(const PlanSources& sources, std::vector<Step> steps, Order order);
 
 } // namespace rhombloom

@@ -120,37 +120,37 @@ struct Spiral
     BuildState& state;
 };
 
+enum class Care
+{
+    KeepEasyPlugs, //!< rather leave elements for later than spoil the last plug
+    None
+};
+
 //! The next element of the layer: beside the last one, going on in the same sense.
-int next_in_layer(const Spiral& s, const std::vector<int>& layer, const Turning& turning)
+int next_in_layer(const Spiral& s, const std::vector<int>& layer, const Turning& turning, Care care)
 {
     int best = -1;
     double best_key = 1e300;
-    for (const bool careful : {true, false}) {
-        for (const int e : layer) {
-            const bool loose = missing_joins(s.state, s.target, e).empty() && s.state.last >= 0;
-            if (s.state.present[e] || loose || (careful && !leaves_easy_plugs(s.state, s.target, e))) {
-                continue;
-            }
-            const bool near = shared_corners(s.surface, s.target, s.state.last, e) > 0;
-            const bool placed = s.state.last >= 0 && s.target.has(s.state.last);
-            const double key = (near ? 0 : 100) + (placed ? turning.from(s.state.last, e) : 0);
-            if (key < best_key - 1e-9) {
-                best_key = key;
-                best = e;
-            }
+    for (const int e : layer) {
+        const bool loose = missing_joins(s.state, s.target, e).empty() && s.state.last >= 0;
+        if (s.state.present[e] || loose || (care == Care::KeepEasyPlugs && !leaves_easy_plugs(s.state, s.target, e))) {
+            continue;
         }
-        if (best >= 0) {
-            break;
+        const bool near = shared_corners(s.surface, s.target, s.state.last, e) > 0;
+        const bool placed = s.state.last >= 0 && s.target.has(s.state.last);
+        const double key = (near ? 0 : 100) + (placed ? turning.from(s.state.last, e) : 0);
+        if (key < best_key - 1e-9) {
+            best_key = key;
+            best = e;
         }
     }
     return best;
 }
 
-//! Inserts what it can of a layer. Elements that would spoil the last plug wait for a later layer.
-void build_layer(const Spiral& s, const std::vector<int>& layer)
+void build_layer(const Spiral& s, const std::vector<int>& layer, Care care)
 {
     const Turning turning(s.surface, s.target, layer);
-    for (int e = next_in_layer(s, layer, turning); e >= 0; e = next_in_layer(s, layer, turning)) {
+    for (int e = next_in_layer(s, layer, turning, care); e >= 0; e = next_in_layer(s, layer, turning, care)) {
         insert(s.state, s.history, s.target, e);
     }
 }
@@ -168,19 +168,21 @@ void build_batch(const Spiral& s, const std::vector<int>& batch)
         insert(s.state, s.history, s.target, first.front());
     }
     for (const auto& layer : batch_layers(s.target, batch, first)) {
-        build_layer(s, layer);
+        build_layer(s, layer, Care::KeepEasyPlugs);
     }
-    build_layer(s, batch);
+    build_layer(s, batch, Care::KeepEasyPlugs);
+    build_layer(s, batch, Care::None);
 }
 
 } // namespace
 
-std::vector<Step> paper_order(const Replay& replay, const BuildHistory& history)
+std::vector<Step> paper_order(const PlanSources& sources)
 {
+    const BuildHistory& history = sources.history;
     BuildState state = empty_state(history);
     for (const Target& target : history.targets) {
         reopen(state, target, chapter_of(state, history, target));
-        const Spiral spiral{stage_surface(replay, target.stage), history, target, state};
+        const Spiral spiral{stage_surface(sources.replay, target.stage), history, target, state};
         for (auto waiting = batches(state, history, target); !waiting.empty();
              waiting = batches(state, history, target)) {
             build_batch(spiral, waiting[next_batch(state, target, waiting)]);

@@ -120,6 +120,12 @@ void count_insert(const Step& step, bool hard, Scorecard& score)
 
 Scorecard scorecard(const Replay& replay, const Element& element, const AssemblyPlan& plan)
 {
+    StageCoverage coverage(replay);
+    return scorecard(replay, element, plan, coverage);
+}
+
+Scorecard scorecard(const Replay& replay, const Element& element, const AssemblyPlan& plan, StageCoverage& coverage)
+{
     Scorecard score;
     Table table(plan, replay.surface.n_faces());
     Hardness hardness(replay, element, plan);
@@ -135,7 +141,7 @@ Scorecard scorecard(const Replay& replay, const Element& element, const Assembly
         }
     }
     score.steps = static_cast<int>(plan.steps.size());
-    score.view_turns = count_turns(held_views(replay, plan));
+    score.view_turns = count_turns(held_views(replay, plan, coverage));
     return score;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "core/building/build_history.h"
+#include "core/building/viewpoints.h"
 
 namespace rhombloom {
 
 //! \brief Count what an order asks of the builder. View turns included (held_views).
 Scorecard scorecard(const Replay& replay, const Element& element, const AssemblyPlan& plan);
+Scorecard scorecard(const Replay& replay, const Element& element, const AssemblyPlan& plan, StageCoverage& coverage);
 
 //! \brief What is wrong with a plan by the hard rules, one sentence each; empty = it can be built.
 //! \details H1 every element but the first joins something; H2 it is one piece after every step; H3 the end is the

@@ -109,7 +109,7 @@ Vec3 element_centre(const Surface& surface, Face f)
     return (a + b + c + d) / 4;
 }
 
-Sight::Sight(const Surface& surface)
+Coverage::Coverage(const Surface& surface)
 {
     const Vec3 centre = middle(surface);
     const double radius = radius_about(surface, centre);
@@ -118,7 +118,6 @@ Sight::Sight(const Surface& surface)
     const auto faces = static_cast<int>(surface.n_faces());
     const auto views = static_cast<int>(viewpoints().size());
     pixels_.resize(static_cast<std::size_t>(faces) * views);
-    depth_.assign(views, std::vector<float>(raster * raster, -1e30F));
     for (const Face f : surface.faces()) {
         normal_.push_back(element_normal(surface, f));
         for (int view = 0; view < views; ++view) {
@@ -136,10 +135,25 @@ Sight::Sight(const Surface& surface)
     }
 }
 
+std::shared_ptr<const Coverage> StageCoverage::operator()(int stage)
+{
+    auto& made = made_[stage];
+    if (!made) {
+        made = std::make_shared<Coverage>(stage_surface(replay_, stage));
+    }
+    return made;
+}
+
+Sight::Sight(std::shared_ptr<const Coverage> coverage)
+    : coverage_(std::move(coverage)), depth_(viewpoints().size(), std::vector<float>(raster * raster))
+{
+    clear();
+}
+
 void Sight::place(Face f)
 {
     for (std::size_t view = 0; view < depth_.size(); ++view) {
-        for (const Pixel& p : pixels_[view * normal_.size() + f.idx()]) {
+        for (const Coverage::Pixel& p : coverage_->pixels(f, static_cast<int>(view))) {
             depth_[view][p.index] = std::max(depth_[view][p.index], p.depth);
         }
     }
@@ -152,26 +166,22 @@ void Sight::clear()
     }
 }
 
-double Sight::facing(Face f, int viewpoint) const
-{
-    return normal_[f.idx()].dot(viewpoints()[viewpoint].toward);
-}
-
 double Sight::visible(Face f, int viewpoint) const
 {
-    const auto& pixels = pixels_[static_cast<std::size_t>(viewpoint) * normal_.size() + f.idx()];
-    if (pixels.empty() || facing(f, viewpoint) < 0.3) {
+    const auto& pixels = coverage_->pixels(f, viewpoint);
+    if (pixels.empty() || coverage_->normal(f).dot(viewpoints()[viewpoint].toward) < 0.3) {
         return 0;
     }
-    const auto seen = std::count_if(pixels.begin(), pixels.end(),
-                                    [&](const Pixel& p) { return depth_[viewpoint][p.index] <= p.depth + tolerance_; });
+    const auto seen = std::count_if(pixels.begin(), pixels.end(), [&](const Coverage::Pixel& p) {
+        return depth_[viewpoint][p.index] <= p.depth + coverage_->tolerance();
+    });
     return static_cast<double>(seen) / static_cast<double>(pixels.size());
 }
 
 namespace {
 
 //! For each step, how well each viewpoint shows its element.
-std::vector<std::vector<double>> visibilities(const Replay& replay, const AssemblyPlan& plan)
+std::vector<std::vector<double>> visibilities(const Replay& replay, const AssemblyPlan& plan, StageCoverage& coverage)
 {
     std::vector<std::vector<double>> result;
     std::vector<char> present(replay.surface.n_faces() + plan.temporary.size(), 0);
@@ -182,7 +192,7 @@ std::vector<std::vector<double>> visibilities(const Replay& replay, const Assemb
         const bool fresh = step.stage != stage || step.kind != StepKind::Insert;
         if (step.stage != stage) {
             stage = step.stage;
-            sight.emplace(stage_surface(replay, stage));
+            sight.emplace(coverage(stage));
             face = faces_of_elements(replay, plan, stage);
         }
         if (fresh) {
@@ -243,7 +253,13 @@ int longest_hold(const std::vector<std::vector<double>>& visible, std::size_t fi
 
 std::vector<int> held_views(const Replay& replay, const AssemblyPlan& plan)
 {
-    const auto visible = visibilities(replay, plan);
+    StageCoverage coverage(replay);
+    return held_views(replay, plan, coverage);
+}
+
+std::vector<int> held_views(const Replay& replay, const AssemblyPlan& plan, StageCoverage& coverage)
+{
+    const auto visible = visibilities(replay, plan, coverage);
     std::vector<int> views;
     while (views.size() < visible.size()) {
         int length = 0;

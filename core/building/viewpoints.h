@@ -1,5 +1,8 @@
 #pragma once
 
+#include <map>
+#include <memory>
+
 #include "core/building/assembly_plan.h"
 
 namespace rhombloom {
@@ -18,11 +21,50 @@ const std::vector<Viewpoint>& viewpoints();
 //! Ten azimuths at each height; viewpoint = height * azimuth_count + azimuth.
 inline constexpr int azimuth_count = 10;
 
+//! \brief Which pixels each element of a surface covers from each viewpoint, and at what depth. Does not change while
+//! the surface is built, so it is made once and shared.
+class Coverage
+{
+public:
+    struct Pixel
+    {
+        int index;
+        float depth; //!< toward the eye
+    };
+
+    explicit Coverage(const Surface& surface);
+
+    const std::vector<Pixel>& pixels(Face f, int viewpoint) const
+    {
+        return pixels_[static_cast<std::size_t>(viewpoint) * normal_.size() + f.idx()];
+    }
+
+    const Vec3& normal(Face f) const { return normal_[f.idx()]; }
+    float tolerance() const { return tolerance_; }
+
+private:
+    std::vector<std::vector<Pixel>> pixels_; // [viewpoint * faces + face]
+    std::vector<Vec3> normal_;               // [face]
+    float tolerance_ = 0;
+};
+
+//! \brief The coverage of each stage of a replay, made when it is first asked for.
+class StageCoverage
+{
+public:
+    explicit StageCoverage(const Replay& replay) : replay_(replay) {}
+    std::shared_ptr<const Coverage> operator()(int stage);
+
+private:
+    const Replay& replay_;
+    std::map<int, std::shared_ptr<const Coverage>> made_;
+};
+
 //! \brief Depth buffers of a surface under construction, one per viewpoint: how well is an element seen?
 class Sight
 {
 public:
-    explicit Sight(const Surface& surface);
+    explicit Sight(std::shared_ptr<const Coverage> coverage);
 
     //! \brief The element is there from now on and hides what is behind it.
     void place(Face f);
@@ -34,19 +76,9 @@ public:
     //! between its normal and the direction to the eye is under 0.3) or from inside.
     double visible(Face f, int viewpoint) const;
 
-    //! \brief The cosine between the element's outward normal and the direction to the eye.
-    double facing(Face f, int viewpoint) const;
-
 private:
-    struct Pixel
-    {
-        int index;
-        float depth;
-    };
-    std::vector<std::vector<Pixel>> pixels_; // [viewpoint * faces + face]
-    std::vector<std::vector<float>> depth_;  // [viewpoint]
-    std::vector<Vec3> normal_;               // [face]
-    float tolerance_ = 0;
+    std::shared_ptr<const Coverage> coverage_;
+    std::vector<std::vector<float>> depth_; // [viewpoint]
 };
 
 //! \brief Is an element seen well enough to hold the view for it? The part that Sight::visible must reach.
@@ -55,6 +87,7 @@ inline constexpr double well_visible = 0.6;
 //! \brief A view for each step, changed as seldom as the order allows: a view is held as long as the next elements
 //! are well visible in it. Of equally long holds, the one that shows the elements best.
 std::vector<int> held_views(const Replay& replay, const AssemblyPlan& plan);
+std::vector<int> held_views(const Replay& replay, const AssemblyPlan& plan, StageCoverage& coverage);
 
 //! \brief How often the view changes.
 int count_turns(const std::vector<int>& views);

@@ -4,7 +4,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/model/surface.h"
+#include "core/design/reference.h"
+#include "core/design/symmetry.h"
 
 namespace rhombloom {
 
@@ -17,7 +18,70 @@ struct Place
     Vec3 rotation_deg = Vec3::Zero(); //!< about x, then y, then z
 };
 
-using Operation = std::variant<Place>;
+//! \brief Join the part \p with to the part \p on where they intersect (Sec. 4.2); the result is called \p on.
+struct Merge
+{
+    std::string on;
+    std::string with;
+    int candidate = 0; //!< rank in the list of merge_candidates
+};
+
+//! \brief Sweep a brush from a vertex (Sec. 4.3).
+struct Extrude
+{
+    std::string id; //!< of the new elements' component; empty: numbered
+    std::string on;
+    Reference apex;
+    std::string brush;
+    Vec3 by = Vec3::Zero(); //!< mm
+    bool symmetric = false;
+};
+
+//! \brief Take elements out: a lamp holder's opening, a cable, a bulb hatch.
+struct Open
+{
+    std::string on;
+    std::vector<Reference> elements;
+    std::string purpose; //!< "lamp holder", "bulb hatch", ...: free text
+    bool symmetric = false;
+};
+
+//! \brief Turn one element over.
+struct Flip
+{
+    std::string on;
+    Reference element;
+    bool symmetric = false;
+};
+
+//! \brief One element drawn in the plane (Sec. 4.4).
+struct LayoutElement
+{
+    Eigen::Vector2d at = Eigen::Vector2d::Zero(); //!< its centre, mm
+    double rotation_deg = 0;
+    Facing facing = Facing::Front;
+};
+
+//! \brief Side \p side (0..3) of element \p element hooked to side \p to_side of element \p to, long to short.
+//! \details Sides 0 and 2 are long.
+struct LayoutJoin
+{
+    int element = 0;
+    int side = 0;
+    int to = 0;
+    int to_side = 0;
+};
+
+//! \brief Elements drawn and joined in the plane become a new part named \p id.
+struct Layout
+{
+    std::string id;
+    std::vector<LayoutElement> elements;
+    std::vector<LayoutJoin> joins;
+    Vec3 position = Vec3::Zero(); //!< of the part's middle, mm
+};
+
+using Operation = std::variant<Place, Merge, Extrude, Open, Flip, Layout>;
 
 //! \brief The document: an element and a history of operations (DESIGN.md section 4). The surface is its replay.
 struct Design
@@ -26,7 +90,11 @@ struct Design
 
     std::string title;
     Element element;
+    Symmetry symmetry;
     std::vector<Operation> operations;
 };
+
+//! \brief What an operation does, for people: "place ball-30 as body".
+std::string describe(const Operation& operation);
 
 } // namespace rhombloom

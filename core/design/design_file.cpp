@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/design/json_reader.h"
+#include "core/design/operation_file.h"
 #include "core/text.h"
 
 namespace rhombloom {
@@ -30,51 +31,11 @@ Expected<Element> read_element(const json& value)
     return element;
 }
 
-Expected<Operation> read_place(ObjectReader& reader)
-{
-    Place place;
-    reader.require("shape");
-    place.id = reader.text("id", "body");
-    place.shape = reader.text("shape", "");
-    place.position = reader.point("position_mm", place.position);
-    place.rotation_deg = reader.point("rotation_deg", place.rotation_deg);
-    if (auto ok = reader.finish(); !ok) {
-        return tl::make_unexpected(ok.error());
-    }
-    return place;
-}
-
-Expected<Operation> read_operation(const json& value, const std::string& path)
-{
-    ObjectReader reader(value, path);
-    reader.require("op");
-    const std::string op = reader.text("op", "place");
-    if (op == "place") {
-        return read_place(reader);
-    }
-    reader.fail("op", "is \"" + op.substr(0, 60) + "\": expected place");
-    return tl::make_unexpected(reader.finish().error());
-}
-
 //! Degrees to ten decimals: what was read from a file is written again as it stood there.
 double tidy_degrees(double angle)
 {
     constexpr double ten_decimals = 1e10;
     return std::round(degrees(angle) * ten_decimals) / ten_decimals;
-}
-
-json write_point(const Vec3& p)
-{
-    return {p.x(), p.y(), p.z()};
-}
-
-nlohmann::ordered_json write(const Place& place)
-{
-    return {{"op", "place"},
-            {"id", place.id},
-            {"shape", place.shape},
-            {"position_mm", write_point(place.position)},
-            {"rotation_deg", write_point(place.rotation_deg)}};
 }
 
 } // namespace
@@ -95,8 +56,13 @@ Expected<Design> parse_design(std::string_view text)
         auto read = read_element(*element);
         read ? void(design.element = *read) : reader.fail(read.error());
     }
+    if (const json* symmetry = reader.take("symmetry")) {
+        auto read = read_symmetry(*symmetry, "$.symmetry");
+        read ? void(design.symmetry = *read) : reader.fail(read.error());
+    }
     const json* operations = reader.take("operations");
-    if (operations != nullptr && (!operations->is_array() || operations->empty() || operations->size() > max_operations)) {
+    if (operations != nullptr &&
+        (!operations->is_array() || operations->empty() || operations->size() > max_operations)) {
         reader.fail("operations", "is " + describe(*operations) + ": expected a list of 1 to 10000 operations");
     }
     if (auto ok = reader.finish(); !ok) {
@@ -121,9 +87,12 @@ std::string write_design(const Design& design)
                        {"lb_mm", design.element.lb},
                        {"alpha_deg", tidy_degrees(design.element.alpha)},
                        {"thickness_mm", design.element.thickness}};
+    if (design.symmetry.kind != Symmetry::Kind::None) {
+        root["symmetry"] = write_symmetry(design.symmetry);
+    }
     root["operations"] = nlohmann::ordered_json::array();
     for (const Operation& operation : design.operations) {
-        root["operations"].push_back(std::visit([](const auto& op) { return write(op); }, operation));
+        root["operations"].push_back(write_operation(operation));
     }
     return root.dump(2) + "\n";
 }

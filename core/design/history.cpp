@@ -1,64 +1,97 @@
 #include "core/design/history.h"
 
-#include <Eigen/Geometry>
-
-#include "core/model/base_shapes.h"
-#include "core/model/validity.h"
+#include "core/design/scene.h"
 
 namespace rhombloom {
 
 namespace {
 
-Eigen::Isometry3d pose(const Place& place)
+std::string path(std::size_t operation)
 {
-    Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-    result.translate(place.position);
-    result.rotate(Eigen::AngleAxisd(radians(place.rotation_deg.z()), Vec3::UnitZ()));
-    result.rotate(Eigen::AngleAxisd(radians(place.rotation_deg.y()), Vec3::UnitY()));
-    result.rotate(Eigen::AngleAxisd(radians(place.rotation_deg.x()), Vec3::UnitX()));
-    return result;
+    return "$.operations[" + std::to_string(operation) + "]";
 }
 
-Expected<Surface> carry_out(const Place& place, const Element& element)
+Expected<void> check_joined(const Scene& scene)
 {
-    auto shape = base_shape(place.shape, element);
-    if (!shape) {
-        return tl::make_unexpected(shape.error());
+    if (scene.parts.size() == 1) {
+        return {};
     }
-    Surface surface = std::move(shape->surface);
-    surface.components = {place.id};
-    for (const Vertex v : surface.vertices()) {
-        surface.set_point(v, pose(place) * surface.point(v));
+    std::string names;
+    for (const ScenePart& part : scene.parts) {
+        names += (names.empty() ? "" : ", ") + part.id;
     }
-    return surface;
-}
-
-std::string text(const Place& place)
-{
-    return "place " + place.shape + " as " + place.id;
+    return refuse("$.operations: at the end the parts " + names +
+                  " are still separate: merge them or make them separate designs");
 }
 
 } // namespace
 
 Expected<Replay> replay(const Design& design, const ReplayOptions& options)
 {
-    Replay result;
-    const int count = static_cast<int>(design.operations.size());
-    if (count > 1) {
-        return refuse("$.operations[1]: a second shape needs a merge, which is not built yet");
+    if (design.operations.empty()) {
+        return refuse("$.operations is empty: a design starts with place or layout");
     }
+    Replay result;
+    Scene scene;
+    const int count = static_cast<int>(design.operations.size());
     for (int i = 0; i < count; ++i) {
-        const Place& place = std::get<Place>(design.operations[i]);
-        if (options.progress && !options.progress(i, count, text(place))) {
+        const std::string text = describe(design.operations[i]);
+        if (options.progress && !options.progress(i, count, text)) {
             return refuse("stopped");
         }
-        auto surface = carry_out(place, design.element);
-        if (!surface) {
-            return refuse("$.operations[" + std::to_string(i) + "]: " + surface.error().message);
+        if (auto done = carry_out(design.operations[i], design, options.embedding, scene); !done) {
+            return refuse(path(i) + ": " + done.error().message);
         }
-        result.embedding = embed(*surface, design.element, options.embedding);
-        result.stages.push_back({text(place), *surface});
-        result.surface = std::move(*surface);
+        auto surface = whole(scene);
+        if (!surface) {
+            return refuse(path(i) + ": " + surface.error().message);
+        }
+        result.stages.push_back({text, std::move(*surface)});
+    }
+    if (auto ok = check_joined(scene); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    result.surface = result.stages.back().surface;
+    result.embedding = scene.parts.front().embedding;
+    return result;
+}
+
+History::History(Design design) : all_(std::move(design)), cursor_(size()) {}
+
+Design History::design() const
+{
+    Design done = all_;
+    done.operations.resize(cursor_);
+    return done;
+}
+
+void History::undo()
+{
+    expects(can_undo(), "History::undo: there is an operation to undo");
+    --cursor_;
+}
+
+void History::redo()
+{
+    expects(can_redo(), "History::redo: there is an operation to do again");
+    ++cursor_;
+}
+
+void History::add(Operation operation)
+{
+    all_.operations.resize(cursor_);
+    all_.operations.push_back(std::move(operation));
+    ++cursor_;
+}
+
+Expected<Replay> History::edit(int index, Operation operation, const ReplayOptions& options)
+{
+    expects(index >= 0 && index < cursor_, "History::edit: the operation is done");
+    Design changed = design();
+    changed.operations[index] = std::move(operation);
+    auto result = replay(changed, options);
+    if (result) {
+        all_.operations[index] = changed.operations[index];
     }
     return result;
 }

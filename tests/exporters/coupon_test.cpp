@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "exporters/kerf.h"
+#include "exporters/segment.h"
+
 namespace rhombloom {
 namespace {
 
@@ -57,6 +60,32 @@ TEST(Coupon, ExplainsItsNotchesAndNamesTheOption)
     ASSERT_TRUE(strips);
     EXPECT_NE(strips->text.find("1 notch 0 mm"), std::string::npos) << strips->text;
     EXPECT_NE(strips->text.find("--kerf"), std::string::npos);
+}
+
+TEST(Coupon, HasNoSegmentThatLaserProgramsSwallow)
+{
+    for (const double la : {40.0, 47.0, 80.0, 133.0, 200.0}) {
+        for (const double alpha : {52.0, 63.435, 70.0, 79.0}) {
+            for (const double kerf : {0.0, 0.15}) {
+                Element element;
+                element.la = la;
+                element.lb = 1.08 * la;
+                element.alpha = radians(alpha);
+                element.thickness = la > 100 ? 0.8 : 0.3;
+                CutOptions options;
+                options.kerf_x = options.kerf_y = kerf;
+                const auto strips = coupon(hook_parameters(element), options);
+                ASSERT_TRUE(strips) << la << " " << alpha << ": " << strips.error().message;
+                EXPECT_EQ(strips->kerfs.size(), 5U) << la << " " << alpha << ": " << strips->warning;
+                for (const Path& path : layer(strips->drawing, LayerUse::CutOuter).paths) {
+                    EXPECT_TRUE(is_simple(path)) << la << " " << alpha << " " << path.id;
+                    for (const Segment& segment : segments(path)) {
+                        EXPECT_GE(length(segment), shortest_segment) << la << " " << alpha << " " << path.id;
+                    }
+                }
+            }
+        }
+    }
 }
 
 TEST(Coupon, IsRefusedOnASheetTooSmallForIt)

@@ -3,6 +3,10 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "exporters/cut_drawing.h"
+#include "exporters/segment.h"
 
 namespace rhombloom {
 namespace {
@@ -86,6 +90,54 @@ TEST(CutFiles, ReportMassAndLengthOfThePieces)
     EXPECT_NEAR(report.cut_length_m / 30, 0.449, 0.005);
     EXPECT_GT(report.minutes, 30 * 0.449 / 0.02 / 60);
     EXPECT_FALSE(report.cost);
+}
+
+//! The contours that the tool follows, of any valid element at any kerf.
+RC_GTEST_PROP(CutDrawings, ContoursAreSimpleAndLargerByTheKerf, ())
+{
+    Element element;
+    element.la = *rc::gen::inRange(40, 201);
+    element.lb = element.la * *rc::gen::inRange(1050, 1151) / 1000.0;
+    element.alpha = radians(*rc::gen::inRange(520, 781) / 10.0);
+    element.thickness = *rc::gen::inRange(20, 81) / 100.0;
+    const double kerf = *rc::gen::inRange(0, 41) / 100.0;
+    const Path outline = *element_outline(hook_parameters(element));
+    Blank blank(outline, {kerf, kerf});
+    const auto piece = blank.laid({*rc::gen::inRange(0, 628) / 100.0, false, Vec2(100, 50)});
+    RC_ASSERT(piece.has_value());
+    RC_ASSERT(is_simple(piece->outer));
+    RC_ASSERT(piece->outer.vertices.back().bulge == 0);
+    for (const Segment& segment : segments(piece->outer)) {
+        RC_ASSERT(length(segment) >= shortest_segment - 1e-9);
+    }
+    if (piece->inner.empty()) {
+        const double expected = area(outline) + length(outline) * kerf / 2 + pi * kerf * kerf / 4;
+        RC_ASSERT(std::abs(area(piece->outer) / expected - 1) < 2e-4);
+    }
+}
+
+TEST(CutDrawings, SmallSheetsGoWithoutACouponAndSaySo)
+{
+    Element element;
+    element.la = 40;
+    element.lb = 44;
+    CutOptions options;
+    options.sheet_width = 75;
+    options.sheet_height = 55;
+    const auto drawings = cut_drawings(element, hook_parameters(element), 1, options);
+    ASSERT_TRUE(drawings) << drawings.error().message;
+    EXPECT_FALSE(drawings->coupon);
+    EXPECT_EQ(drawings->report.warnings.size(), 1U);
+}
+
+TEST(CutDrawings, TheOffcutIsFilledFirst)
+{
+    CutOptions options;
+    options.remnant = SheetSize{300, 200};
+    const auto drawings = cut_drawings({}, hook_parameters({}), 30, options);
+    ASSERT_TRUE(drawings) << drawings.error().message;
+    EXPECT_EQ(drawings->sheets.front().width, 300);
+    EXPECT_EQ(drawings->sheets.back().width, 600);
 }
 
 TEST(CutFiles, CostIsReportedWhenAPriceIsGiven)

@@ -14,6 +14,7 @@ TEST(Machines, AreFoundByNameWhateverTheCaseAndTheSpaces)
     }
     EXPECT_EQ(find_machine("Trotec  Speedy_100")->name, "trotec-speedy-100");
     EXPECT_EQ(find_machine("A4")->height, 297);
+    EXPECT_EQ(find_machine("Cameo")->name, "silhouette-cameo-12x12");
 }
 
 TEST(Machines, NamesAreUniqueAndSizesPossible)

@@ -21,7 +21,7 @@ struct Case
 std::vector<Case> cases()
 {
     std::vector<Case> all;
-    for (const char* name : {"ball-30", "polar-3x3", "rhombic-6", "rhombic-12", "ball-90", "tube-6x4", "torus-12x12",
+    for (const char* name : {"ball-30", "polar-3x3", "rhombic-6", "rhombic-12", "ball-90", "tube-6x4", "torus-12x6",
                              "dome-5x3", "sheet-4x6"}) {
         all.push_back({name, replays::single(name)});
     }

@@ -42,7 +42,8 @@ struct Bad
 };
 
 class BadDesign : public testing::TestWithParam<Bad>
-{};
+{
+};
 
 TEST_P(BadDesign, IsRefusedWithItsPlace)
 {

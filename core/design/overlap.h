@@ -1,0 +1,38 @@
+#pragma once
+
+#include "core/model/surface.h"
+
+namespace rhombloom {
+
+using Triangle = std::array<Vec3, 3>;
+
+//! \brief The two triangles of an element, split along the shorter diagonal.
+std::array<Triangle, 2> triangles(const Surface& surface, Face f);
+
+//! \brief Smallest distance of two triangles; 0 when they cross. Coplanar and degenerate ones need no special care.
+double distance(const Triangle& a, const Triangle& b);
+
+//! \brief Distance of a point from a triangle.
+double distance(const Vec3& p, const Triangle& t);
+
+//! \brief Two posed surfaces: which elements of each touch or cross the other (Sec. 4.2).
+struct Overlap
+{
+    std::vector<char> a; //!< one entry per element of the first surface
+    std::vector<char> b;
+    bool any = false;
+};
+
+//! \brief Elements whose triangles come closer than \p touching (mm) count as intersecting.
+Overlap overlap(const Surface& a, const Surface& b, double touching);
+
+//! \brief The generalised winding number of \p surface at \p p: 1 inside, 0 outside, in between near an opening.
+double winding_number(const Surface& surface, const Vec3& p);
+
+//! \brief Distance of \p p from \p surface, positive outside, mm.
+double signed_distance(const Surface& surface, const Vec3& p);
+
+//! \brief Pairs of elements of one surface that cross each other; neighbours may touch where they are hooked.
+std::vector<std::pair<Face, Face>> self_intersections(const Surface& surface);
+
+} // namespace rhombloom
