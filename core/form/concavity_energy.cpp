@@ -105,7 +105,7 @@ HingeAngle hinge_angle_derivatives(const HingePoints& p)
 double ridge_weight(const HingeLaw& law)
 {
     const double span = pi - law.ridge_start;
-    return law.concavity_weight * (1 - law.convex_weight) * pi * pi / (span * span);
+    return law.ridge_height * law.concavity_weight * (1 - law.convex_weight) * pi * pi / (span * span);
 }
 
 HingeResponse hinge_response(const HingeLaw& law, double angle)

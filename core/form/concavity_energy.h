@@ -34,6 +34,7 @@ struct HingeLaw
 {
     double concavity_weight = 1; //!< w of `w gamma^2` for gamma < 0
     double convex_weight = 0;    //!< convex hinges cost convex_weight * w * gamma^2
+    double ridge_height = 1;     //!< 0: no ridge
     double ridge_start = 2.4;    //!< radians; valid shapes stay below 1.95
 };
 

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/form/embedding_energy.h"
-#include "core/form/minimise.h"
 #include "core/form/parallel.h"
 #include "core/form/rigid_alignment.h"
+#include "core/form/settle.h"
 #include "core/text.h"
 
 namespace rhombloom {
@@ -52,6 +52,7 @@ EmbedReport report_at(const EmbeddingTerms& terms, const EmbedOptions& options, 
     report.spring_energy = parts.spring * terms.la;
     report.concavity_energy = parts.concavity * terms.la;
     report.energy = report.spring_energy + report.concavity_energy;
+    report.guard_energy = parts.guard * terms.la;
     report.concavity_weight = options.concavity_weight;
     report.convex_weight = options.convex_weight;
     report.gradient_norm = gradient.lpNorm<Eigen::Infinity>();
@@ -83,19 +84,20 @@ EmbedReport refusal(const EmbedOptions& options, std::string message)
     return report;
 }
 
-std::string why_not(const MinimiseResult& result)
+std::string remark(const Settled& settled)
 {
-    switch (result.reason) {
-    case StopReason::Converged:
-        return {};
+    const std::string iterations = std::to_string(settled.result.iterations) + " iterations";
+    switch (settled.result.reason) {
     case StopReason::Cancelled:
-        return "stopped after " + std::to_string(result.iterations) + " iterations as asked";
+        return "stopped after " + iterations + " as asked, not in equilibrium";
     case StopReason::IterationLimit:
-        return "not in equilibrium after " + std::to_string(result.iterations) + " iterations";
+        return "not in equilibrium after " + iterations;
     case StopReason::Stalled:
+        return "no equilibrium found: no further decrease after " + iterations;
+    case StopReason::Converged:
         break;
     }
-    return "no further decrease after " + std::to_string(result.iterations) + " iterations";
+    return settled.guarded ? "elements collapse: the shape is in equilibrium only with the barrier against it" : "";
 }
 
 MinimiseOptions minimise_options(const EmbedOptions& options, double la)
@@ -123,19 +125,19 @@ EmbedReport embed(Surface& surface, const Element& element, const EmbedOptions& 
     if (std::string problem = bad_position(surface); !problem.empty()) {
         return refusal(options, std::move(problem));
     }
-    const EmbeddingTerms terms = embedding_terms(surface, element, options);
+    EmbeddingTerms terms = embedding_terms(surface, element, options);
     const Eigen::Matrix3Xd start = positions(surface);
-    Iterate iterate = iterate_at(terms, unknowns(start, element.la));
-    const MinimiseResult result = minimise(terms, iterate, minimise_options(options, element.la));
-    Eigen::Matrix3Xd points = element.la * iterate.x.reshaped(3, surface.n_vertices());
+    VectorXd x = unknowns(start, element.la);
+    const Settled settled = settle(terms, x, minimise_options(options, element.la));
+    Eigen::Matrix3Xd points = element.la * x.reshaped(3, surface.n_vertices());
     align_rigidly(points, start);
     for (const Vertex v : surface.vertices()) {
         surface.set_point(v, points.col(v.idx()));
     }
-    EmbedReport report = report_at(terms, options, unknowns(points, element.la));
-    report.iterations = result.iterations;
-    report.converged = result.reason == StopReason::Converged;
-    report.message = why_not(result);
+    EmbedReport report = report_at(terms, options, x);
+    report.iterations = settled.result.iterations;
+    report.converged = settled.result.reason == StopReason::Converged;
+    report.message = remark(settled);
     return report;
 }
 
@@ -144,8 +146,13 @@ EmbedReport measure(const Surface& surface, const Element& element, const EmbedO
     if (std::string problem = bad_position(surface); !problem.empty()) {
         return refusal(options, std::move(problem));
     }
-    const EmbeddingTerms terms = embedding_terms(surface, element, options);
-    return report_at(terms, options, unknowns(positions(surface), element.la));
+    const EmbeddingTerms guarded = embedding_terms(surface, element, options);
+    EmbeddingTerms pure = guarded;
+    remove_guards(pure);
+    const VectorXd x = unknowns(positions(surface), element.la);
+    const EmbedReport with = report_at(guarded, options, x);
+    const EmbedReport without = report_at(pure, options, x);
+    return with.gradient_norm < without.gradient_norm ? with : without;
 }
 
 } // namespace rhombloom

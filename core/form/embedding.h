@@ -18,9 +18,9 @@ struct EmbedOptions
     double concavity_weight = 1; //!< times la: the shape does not depend on the unit (DESIGN.md section 3)
     double convex_weight = 0;    //!< cost of convex hinges relative to concave ones; 0 is the paper's energy
     double tolerance = 1e-9;     //!< largest absolute gradient component accepted as an equilibrium
-    int max_iterations = 500;
-    double time_budget_s = 0; //!< 0: none. A small budget is the coarse mode for dragging
-    int threads = 0;          //!< 0: as many as the machine has. The result does not depend on it
+    int max_iterations = 10000;  //!< most of them cheap
+    double time_budget_s = 0;    //!< 0: none. A small budget is the coarse mode for dragging
+    int threads = 0;             //!< 0: as many as the machine has. The result does not depend on it
     //! Called once per iteration; return false to stop. Empty: never called.
     std::function<bool(const EmbedProgress&)> progress;
 };
@@ -34,7 +34,10 @@ struct EmbedReport
     double concavity_energy = 0; //!< mm, with the convex hinges' share
     double concavity_weight = 1;
     double convex_weight = 0;
-    double gradient_norm = 0; //!< largest absolute component of the energy's gradient
+    //! Energy of the barrier against collapse and of the ridge at folded hinges (not in \c energy), mm. 0, except on a
+    //! shape that has no equilibrium without them.
+    double guard_energy = 0;
+    double gradient_norm = 0; //!< largest absolute component of the gradient of energy + guard_energy
     double max_stretch = 0;   //!< largest (l - L) / L over all springs; negative when all are compressed
     std::string message;      //!< why it did not converge; empty when it did
 };

@@ -45,7 +45,9 @@ bool is_active(const HingeResponse& response)
 
 void add_block(BlockMatrix& matrix, int block, const Matrix3d& addend)
 {
-    Eigen::Map<Matrix3d>(&matrix.value[9 * block]) += addend;
+    if (block >= 0) {
+        Eigen::Map<Matrix3d>(&matrix.value[9 * std::size_t(block)]) += addend;
+    }
 }
 
 void add_spring(const EmbeddingTerms& terms, const SpringPair& pair, const std::array<int, 3>& blocks,
@@ -106,33 +108,38 @@ EnergyParts embedding_energy(const EmbeddingTerms& terms, const VectorXd& x)
 EnergyParts embedding_gradient(const EmbeddingTerms& terms, const VectorXd& x, VectorXd& gradient)
 {
     gradient.setZero(x.size());
-    return evaluate(terms, x, gradient.data());
+    const EnergyParts parts = evaluate(terms, x, gradient.data());
+    gradient.tail(3 * (terms.vertex_count - terms.free_count)).setZero();
+    return parts;
 }
 
 BlockMatrix hessian_matrix(const EmbeddingTerms& terms, HessianPattern& pattern)
 {
     std::vector<std::pair<int, int>> pairs;
+    const auto add_pair = [&](int i, int j) {
+        if (i < terms.free_count && j < terms.free_count) {
+            pairs.emplace_back(i, j);
+        }
+    };
     for (const SpringPair& pair : terms.springs) {
-        pairs.emplace_back(pair.a, pair.b);
+        add_pair(pair.a, pair.b);
     }
     for (const HingeVertices& hinge : terms.hinges) {
-        for (int k = 0; k < 4; ++k) {
-            for (int l = 0; l < k; ++l) {
-                pairs.emplace_back(hinge[k], hinge[l]);
-            }
-        }
+        add_pair(hinge[2], hinge[3]); // the other pairs are sides and diagonals
     }
-    BlockMatrix matrix = make_block_matrix(terms.vertex_count, std::move(pairs));
+    BlockMatrix matrix = make_block_matrix(terms.free_count, std::move(pairs));
+    const auto block = [&](int i, int j) {
+        return i < terms.free_count && j < terms.free_count ? block_index(matrix, i, j) : -1;
+    };
     pattern = {};
     for (const SpringPair& pair : terms.springs) {
-        pattern.spring_blocks.push_back({block_index(matrix, pair.a, pair.a), block_index(matrix, pair.b, pair.b),
-                                         block_index(matrix, pair.a, pair.b)});
+        pattern.spring_blocks.push_back({block(pair.a, pair.a), block(pair.b, pair.b), block(pair.a, pair.b)});
     }
     for (const HingeVertices& hinge : terms.hinges) {
         std::array<int, 10>& blocks = pattern.hinge_blocks.emplace_back();
         for (int k = 0, n = 0; k < 4; ++k) {
             for (int l = 0; l <= k; ++l, ++n) {
-                blocks[n] = block_index(matrix, hinge[k], hinge[l]);
+                blocks[n] = block(hinge[k], hinge[l]);
             }
         }
     }

@@ -18,13 +18,13 @@ struct EnergyParts
 //! \brief Energy of the positions \p x (three coordinates per vertex, in units of la).
 EnergyParts embedding_energy(const EmbeddingTerms& terms, const Eigen::VectorXd& x);
 
-//! \brief The same, and the gradient by \p x.
+//! \brief The same, and the gradient by \p x, zero for the vertices that are held.
 EnergyParts embedding_gradient(const EmbeddingTerms& terms, const Eigen::VectorXd& x, Eigen::VectorXd& gradient);
 
 //! \brief Where the terms' blocks lie in the matrix.
 struct HessianPattern
 {
-    std::vector<std::array<int, 3>> spring_blocks; //!< (a, a), (b, b), (a, b)
+    std::vector<std::array<int, 3>> spring_blocks; //!< (a, a), (b, b), (a, b); -1: held
     std::vector<std::array<int, 10>> hinge_blocks; //!< (k, l) for k = 0..3, l = 0..k
 };
 

@@ -73,6 +73,7 @@ EmbeddingTerms embedding_terms(const Surface& surface, const Element& element, c
 {
     EmbeddingTerms terms;
     terms.vertex_count = static_cast<int>(surface.n_vertices());
+    terms.free_count = terms.vertex_count;
     terms.la = element.la;
     terms.spring_law.barrier_ratio = barrier_ratio(element.la, element.lb);
     terms.hinge_law.concavity_weight = options.concavity_weight;
@@ -80,6 +81,7 @@ EmbeddingTerms embedding_terms(const Surface& surface, const Element& element, c
     for (const Edge e : surface.edges()) {
         add_edge(terms, surface, element, e);
     }
+    terms.edge_count = static_cast<int>(terms.springs.size());
     for (const Face f : surface.faces()) {
         add_diagonals(terms, surface, element, f);
     }

@@ -29,8 +29,10 @@ using HingeVertices = std::array<int, 4>;
 struct EmbeddingTerms
 {
     int vertex_count = 0;
-    double la = 0; //!< mm
-    std::vector<SpringPair> springs;
+    int free_count = 0;              //!< the vertices from this number on are held: no gradient, no rows in the Hessian
+    double la = 0;                   //!< mm
+    std::vector<SpringPair> springs; //!< those along edges first
+    int edge_count = 0;              //!< how many these are; the others are diagonals
     std::vector<HingeVertices> hinges;
     SpringLaw spring_law;
     HingeLaw hinge_law;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "core/form/linear_solver.h"
 #include "core/form/minimise.h"
@@ -39,7 +40,9 @@ public:
                 if (attempt == 0) {
                     lower_damping();
                 }
-                return -solver_.solve(iterate.gradient);
+                VectorXd step = VectorXd::Zero(iterate.x.size());
+                step.head(3 * terms_.free_count) = -solver_.solve(iterate.gradient.head(3 * terms_.free_count));
+                return step;
             }
             raise_damping();
         }
@@ -71,6 +74,31 @@ private:
     double shift_ = rigid_shift;
 };
 
+// Notices that neither the energy nor the gradient gets anywhere.
+class Stagnation
+{
+public:
+    explicit Stagnation(const Iterate& iterate) : energy_(iterate.energy), gradient_(iterate.gradient_norm()) {}
+
+    bool lasts(const Iterate& iterate)
+    {
+        if (++iterations_ % period != 0) {
+            return false;
+        }
+        const bool idle =
+            iterate.energy > energy_ - 1e-7 * std::abs(energy_) && iterate.gradient_norm() > gradient_ / 4;
+        energy_ = iterate.energy;
+        gradient_ = std::min(gradient_, iterate.gradient_norm());
+        return idle;
+    }
+
+private:
+    static constexpr int period = 40;
+    int iterations_ = 0;
+    double energy_;
+    double gradient_;
+};
+
 } // namespace
 
 MinimiseResult newton(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options)
@@ -80,7 +108,8 @@ MinimiseResult newton(const EmbeddingTerms& terms, Iterate& iterate, const Minim
         return result;
     }
     NewtonSystem system(terms, options.threads);
-    while (line_search(terms, iterate, system.direction(iterate), {1, 2})) {
+    Stagnation stagnation(iterate);
+    while (!stagnation.lasts(iterate) && line_search(terms, iterate, system.direction(iterate), {1, 2})) {
         ++result.iterations;
         if (should_stop(iterate, options, result)) {
             return result;

@@ -60,49 +60,43 @@ inline Triangulation subdivided(const Triangulation& coarse)
 }
 
 //! Two icosahedral caps of \p frequency with \p rows extra rows of triangles between them: 30 f^2 + 15 f rows edges.
+//! Rings of vertices from north to south: ring k of a cap has 5 k vertices, those between 5 f, each turned by half a
+//! step.
 inline Triangulation capsule(int frequency, int rows)
 {
-    // Rings from north to south; ring k of the caps has 5 k vertices, in the middle 5 f.
-    std::vector<std::vector<int>> rings;
     Triangulation mesh;
-    const int total = 3 * frequency + rows;
-    const double height = 0.87 * rows;
-    const double radius = 5.0 * frequency / two_pi;
+    const int f = frequency;
+    const int total = 3 * f + rows;
+    const double radius = 5.0 * f / two_pi;
+    std::vector<int> first;
+    const auto size = [&](int k) { return 5 * std::min({k, f, total - k}); };
     for (int k = 0; k <= total; ++k) {
-        const int count = std::max(1, 5 * std::min({k, frequency, total - k}));
-        const double t = k <= frequency ? k : k >= total - frequency ? 3 * frequency - (total - k) : -1;
-        const double along = t >= 0 ? t : frequency + frequency * double(k - frequency) / (frequency + rows);
-        const double polar = pi * along / (3 * frequency);
-        const double twist = 0.5 * std::max(0, std::min(k - frequency, frequency + rows)); // antiprism rows
-        std::vector<int>& ring = rings.emplace_back();
-        const double share = std::clamp((double(k) - frequency) / (frequency + rows), 0.0, 1.0);
-        for (int i = 0; i < count; ++i) {
-            const double phi = two_pi * (i + twist) / count;
-            ring.push_back(static_cast<int>(mesh.positions.size()));
+        first.push_back(static_cast<int>(mesh.positions.size()));
+        const int row = std::clamp(k - f, 0, f + rows);
+        const double straight = rows / double(f + rows) * row; // of the rows so far, those that bend nothing
+        const double polar = pi * (k - straight) / (3 * f);
+        const double z = radius * std::cos(polar) + 0.87 * (0.5 * rows - straight);
+        for (int i = 0; i < std::max(1, size(k)); ++i) {
+            const double phi = two_pi * (double(i) / std::max(1, size(k)) + 0.5 * row / (5 * f));
             mesh.positions.emplace_back(radius * std::sin(polar) * std::cos(phi),
-                                        radius * std::sin(polar) * std::sin(phi),
-                                        radius * std::cos(polar) + height * (0.5 - share));
+                                        radius * std::sin(polar) * std::sin(phi), z);
         }
     }
-    const auto add_strip = [&](const std::vector<int>& upper, const std::vector<int>& lower, int corner) {
-        // Walk both rings once; in a cap the longer ring gets one vertex more per fifth.
-        const int n = static_cast<int>(upper.size());
-        const int m = static_cast<int>(lower.size());
-        for (int i = 0, j = 0; i < n % (n + 1) || j < m;) {
-            const bool step_lower = (j + (corner > 0 ? 0.0 : 0.5)) * n <= (i + (corner > 0 ? 0.0 : 0.5)) * m && j < m;
-            if (step_lower || i >= n) {
-                mesh.triangles.push_back({upper[i % n], lower[j % m], lower[(j + 1) % m]});
-                ++j;
-            } else {
-                mesh.triangles.push_back({upper[i % n], lower[j % m], upper[(i + 1) % n]});
-                ++i;
-            }
-        }
+    const auto at = [&](int k, int sector, int i) {
+        return size(k) == 0 ? first[k] : first[k] + (sector * size(k) / 5 + i) % size(k);
     };
     for (int k = 0; k < total; ++k) {
-        add_strip(rings[k], rings[k + 1], 1);
+        const int upper = size(k) / 5;
+        const int lower = size(k + 1) / 5;
+        for (int s = 0; s < 5; ++s) {
+            for (int i = 0; i < lower; ++i) {
+                mesh.triangles.push_back({at(k, s, i + (upper >= lower)), at(k + 1, s, i), at(k + 1, s, i + 1)});
+            }
+            for (int i = 0; i < upper; ++i) {
+                mesh.triangles.push_back({at(k, s, i), at(k + 1, s, i + (upper < lower)), at(k, s, i + 1)});
+            }
+        }
     }
-    std::erase_if(mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[0] == t[2]; });
     return mesh;
 }
 

@@ -1,0 +1,200 @@
+#include "core/form/settle.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "core/form/local_newton.h"
+#include "core/form/start_shape.h"
+
+namespace rhombloom {
+
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double wild_energy = 20;       // la per spring pair on average: positions that know nothing of the shape
+constexpr double dimple = -0.785;        // radians
+constexpr double loaded_guards = 0.05;   // share of the energy
+constexpr double flattening = 1e-2;      // convex weight that unfolds a shape
+constexpr double same_energy = 1e-9;     // relative
+constexpr double collapsed_length = 0.4; // share of the rest length
+constexpr double collapsed_corner = 0.2; // sine of a corner
+
+struct Candidate
+{
+    Iterate iterate;
+    MinimiseResult result;
+};
+
+bool is_better(const Candidate& a, const Candidate& b)
+{
+    const bool a_converged = a.result.reason == StopReason::Converged;
+    const bool b_converged = b.result.reason == StopReason::Converged;
+    return a_converged != b_converged ? a_converged
+                                      : a.iterate.energy < b.iterate.energy - same_energy * std::abs(b.iterate.energy);
+}
+
+bool is_good(const EmbeddingTerms& terms, const Candidate& candidate)
+{
+    return candidate.result.reason == StopReason::Converged &&
+           sharpest_concavity(terms, candidate.iterate.x) > dimple &&
+           embedding_energy(terms, candidate.iterate.x).guard <= loaded_guards * candidate.iterate.energy;
+}
+
+// The given positions, made usable; nothing is changed on those that are.
+VectorXd usable(const EmbeddingTerms& terms, VectorXd x)
+{
+    const int dimensions = spread_dimensions(x);
+    if (dimensions < 2) {
+        x = spectral_layout(terms);
+    }
+    VectorXd scaled = x;
+    rescale(terms, scaled);
+    if (scaled.norm() > 3 * x.norm() || 3 * scaled.norm() < x.norm()) {
+        x = scaled;
+    }
+    if (dimensions == 2) {
+        bulge(terms, x);
+    }
+    separate(terms, x);
+    VectorXd inverted = x;
+    mirror(inverted);
+    return embedding_energy(terms, inverted).total() < 0.5 * embedding_energy(terms, x).total() ? inverted : x;
+}
+
+bool is_wild(const EmbeddingTerms& terms, const VectorXd& x)
+{
+    return embedding_energy(terms, x).total() > wild_energy * double(terms.springs.size());
+}
+
+// The equilibrium with a small stiffness of convex hinges, as a start: it has no folds.
+VectorXd unfolded(const EmbeddingTerms& terms, const VectorXd& x, const MinimiseOptions& options)
+{
+    EmbeddingTerms stiff = terms;
+    stiff.hinge_law.convex_weight = std::max(flattening, terms.hinge_law.convex_weight);
+    Iterate iterate = iterate_at(stiff, x);
+    minimise(stiff, iterate, options);
+    return iterate.x;
+}
+
+constexpr int repairs = 5;
+
+// The k-th repair, of the positions at the start or of the best result so far; false when it does not apply.
+bool repair(const EmbeddingTerms& terms, const VectorXd& start, const VectorXd& best, int k,
+            const MinimiseOptions& options, VectorXd& x)
+{
+    x = k == 0 || k == 3 ? best : start;
+    switch (k) {
+    case 0:
+        return pop_dimples(terms, x);
+    case 1:
+        x = unfolded(terms, x, options);
+        return true;
+    case 2:
+        smooth(terms, x, 6);
+        break;
+    case 3:
+        smooth(terms, x, 12);
+        break;
+    default:
+        x = unfolded(terms, usable(terms, spectral_layout(terms)), options);
+        return true;
+    }
+    x = usable(terms, x);
+    return true;
+}
+
+Candidate attempt(const EmbeddingTerms& terms, const VectorXd& x, const MinimiseOptions& options)
+{
+    Candidate candidate{iterate_at(terms, x), {}};
+    candidate.result = local_newton(terms, candidate.iterate, options);
+    if (candidate.result.reason == StopReason::Stalled) {
+        candidate.result = minimise(terms, candidate.iterate, options);
+    }
+    return candidate;
+}
+
+bool has_collapsed(const EmbeddingTerms& terms, const VectorXd& x)
+{
+    const auto at = [&](int v) { return Eigen::Vector3d(x.segment<3>(3 * v)); };
+    const bool short_spring = std::any_of(terms.springs.begin(), terms.springs.end(), [&](const SpringPair& pair) {
+        return (at(pair.b) - at(pair.a)).norm() < collapsed_length * std::max(pair.rest[0], pair.rest[1]);
+    });
+    const auto is_thin = [&](const Eigen::Vector3d& edge, const Eigen::Vector3d& side) {
+        return edge.cross(side).norm() < collapsed_corner * edge.norm() * side.norm();
+    };
+    return short_spring || std::any_of(terms.hinges.begin(), terms.hinges.end(), [&](const HingeVertices& h) {
+               const Eigen::Vector3d edge = at(h[1]) - at(h[0]);
+               return is_thin(edge, at(h[2]) - at(h[0])) || is_thin(edge, at(h[3]) - at(h[0]));
+           });
+}
+
+// Where a guard bears load, look for an equilibrium of the energy without it.
+bool stands_without_guards(EmbeddingTerms& terms, Candidate& candidate, const MinimiseOptions& options)
+{
+    EmbeddingTerms pure = terms;
+    remove_guards(pure);
+    Candidate without{iterate_at(pure, candidate.iterate.x), {}};
+    without.result = newton(pure, without.iterate, options);
+    candidate.result.iterations += without.result.iterations;
+    if (without.result.reason != StopReason::Converged || has_collapsed(pure, without.iterate.x)) {
+        return false;
+    }
+    candidate.iterate = without.iterate;
+    terms = std::move(pure);
+    return true;
+}
+
+// In equilibrium as it is, with nothing but the energy of the paper.
+bool is_settled(const EmbeddingTerms& terms, const VectorXd& x, double tolerance)
+{
+    EmbeddingTerms pure = terms;
+    remove_guards(pure);
+    return iterate_at(pure, x).gradient_norm() <= tolerance && !has_collapsed(pure, x);
+}
+
+} // namespace
+
+void remove_guards(EmbeddingTerms& terms)
+{
+    terms.spring_law.barrier_weight = 0;
+    terms.hinge_law.ridge_height = 0;
+}
+
+Settled settle(EmbeddingTerms& terms, VectorXd& x, const MinimiseOptions& options)
+{
+    if (is_settled(terms, x, options.tolerance)) {
+        remove_guards(terms);
+        return {{StopReason::Converged, 0}, 0, false};
+    }
+    VectorXd start = usable(terms, x);
+    if (is_wild(terms, start)) {
+        smooth(terms, start, 3);
+        start = usable(terms, start);
+    }
+    Settled settled;
+    Candidate best = attempt(terms, start, options);
+    int iterations = best.result.iterations;
+    for (int k = 0; k < repairs && best.result.reason != StopReason::Cancelled && !is_good(terms, best); ++k) {
+        VectorXd repaired;
+        if (!repair(terms, start, best.iterate.x, k, options, repaired)) {
+            continue;
+        }
+        ++settled.restarts;
+        Candidate next = attempt(terms, repaired, options);
+        iterations += next.result.iterations;
+        if (is_better(next, best)) {
+            best = std::move(next);
+        }
+    }
+    best.result.iterations = iterations;
+    settled.guarded = embedding_energy(terms, best.iterate.x).guard > 0;
+    if (settled.guarded && best.result.reason == StopReason::Converged) {
+        settled.guarded = !stands_without_guards(terms, best, options);
+    }
+    settled.result = best.result;
+    x = best.iterate.x;
+    return settled;
+}
+
+} // namespace rhombloom

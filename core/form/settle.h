@@ -1,0 +1,23 @@
+#pragma once
+
+#include "core/form/minimise.h"
+
+namespace rhombloom {
+
+struct Settled
+{
+    MinimiseResult result;
+    int restarts = 0;
+    bool guarded = false; //!< the barrier or the ridge bears load: without them this shape has no equilibrium nearby
+};
+
+//! \brief Bring \p x into equilibrium from any finite positions.
+//! \details minimise() from the positions, if they are of any use; then, while that has not converged or has left a
+//! dimple or a fold, from repaired ones (start_shape.h), at most five times. The lowest energy counts. Guards that bear
+//! load in the end are taken away when the shape stands without them.
+Settled settle(EmbeddingTerms& terms, Eigen::VectorXd& x, const MinimiseOptions& options);
+
+//! \brief Take the barrier and the ridge out of the energy.
+void remove_guards(EmbeddingTerms& terms);
+
+} // namespace rhombloom
