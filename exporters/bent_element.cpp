@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "exporters/bent_element_bend.h"
 #include "exporters/bent_element_threads.h"
 
 namespace rhombloom {
@@ -23,22 +24,25 @@ struct HookPoint
     double share = 0;  //!< how far it belongs to the neighbour's sheet, 0..1
 };
 
+//! The element's own frame: x along the long sides, z outward, left-handed when it is turned over.
+struct Frame
+{
+    Vec3 origin;
+    Eigen::Matrix3d axes; //!< columns
+
+    Vec3 inside(const Vec3& p) const { return axes.transpose() * (p - origin); }
+    Vec3 outside(const Vec3& p) const { return origin + axes * p; }
+};
+
 struct Context
 {
     const Surface& surface;
     const Element& element;
     HookParameters hooks;
-    SheetMechanics mechanics;
     FlatSheet sheet;
     std::vector<HookPoint> hook_points;
     std::map<std::pair<int, int>, std::array<int, 2>> faces_of_edge; //!< sorted vertices -> faces, -1: none
 };
-
-std::array<Vec2, 4> flat_corners(const Element& e)
-{
-    const Vec2 across(e.la * std::cos(e.alpha), e.la * std::sin(e.alpha));
-    return {Vec2(0, 0), Vec2(e.lb, 0), Vec2(e.lb, 0) + across, across};
-}
 
 double smooth_step(double t)
 {
@@ -107,36 +111,40 @@ std::array<Vec3, 4> corner_positions(const Surface& surface, const std::array<in
     return positions;
 }
 
-//! The planar rhomboid with the surface's mean sides and diagonals: what the common start is bent for.
-std::array<Vec3, 4> mean_corners(const Surface& surface, const std::vector<BentElement>& elements)
+Frame frame_of(const std::array<Vec3, 4>& c, Outward outward)
 {
-    double longer = 0;
-    double shorter = 0;
-    double cosine = 0;
-    for (const BentElement& e : elements) {
-        const std::array<Vec3, 4> c = corner_positions(surface, e.corners);
-        longer += (c[1] - c[0] + c[2] - c[3]).norm() / 2;
-        shorter += (c[3] - c[0] + c[2] - c[1]).norm() / 2;
-        cosine += (c[1] - c[0] + c[2] - c[3]).normalized().dot((c[3] - c[0] + c[2] - c[1]).normalized());
-    }
-    const auto n = static_cast<double>(elements.size());
-    const double angle = std::acos(std::clamp(cosine / n, -0.9, 0.9));
-    const Vec3 x(longer / n, 0, 0);
-    const Vec3 y = Vec3(std::cos(angle), std::sin(angle), 0) * (shorter / n);
-    return {Vec3::Zero(), x, x + y, y};
+    const Vec3 x = (c[1] - c[0] + c[2] - c[3]).normalized();
+    const Vec3 normal = (c[2] - c[0]).cross(c[3] - c[1]) * sign(outward);
+    const Vec3 n = (normal - normal.dot(x) * x).normalized();
+    Frame frame;
+    frame.origin = 0.25 * (c[0] + c[1] + c[2] + c[3]);
+    frame.axes << x, n.cross(x) * sign(outward), n;
+    return frame;
 }
 
-//! Every element starts from the same solved patch: the result does not depend on the order.
-void bend_all(const Context& context, std::vector<BentElement>& elements)
+std::array<Vec3, 4> inside(const Frame& frame, const std::array<Vec3, 4>& corners)
 {
-    const std::array<Vec3, 4> mean = mean_corners(context.surface, elements);
-    const BentPatch arch = arched_patch(context.mechanics, mean, Outward::Front);
-    const BentPatch start = bend(context.mechanics, mean, arch);
-    for_each_in_two_threads(elements.size(), [&](std::size_t i) {
-        BentElement& e = elements[i];
-        const std::array<Vec3, 4> corners = corner_positions(context.surface, e.corners);
-        e.patch = bend(context.mechanics, corners, transferred(start, Outward::Front, corners, e.outward));
-    });
+    return {frame.inside(corners[0]), frame.inside(corners[1]), frame.inside(corners[2]), frame.inside(corners[3])};
+}
+
+BentPatch outside(const Frame& frame, BentPatch patch)
+{
+    for (int i = 0; i < BentPatch::controls; ++i) {
+        patch.control.col(i) = frame.outside(patch.control.col(i));
+    }
+    return patch;
+}
+
+//! The mean of all elements' corners in their own frames.
+std::array<Vec3, 4> mean_corners(const std::vector<std::array<Vec3, 4>>& corners)
+{
+    std::array<Vec3, 4> mean = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    for (const auto& c : corners) {
+        for (int k = 0; k < 4; ++k) {
+            mean[k] += c[k] / static_cast<double>(corners.size());
+        }
+    }
+    return mean;
 }
 
 //! The element on the other side of the edge from corner \p a to corner \p b of element \p i; null at a boundary.
@@ -153,6 +161,21 @@ int corner_at(const BentElement& element, int vertex)
 {
     return static_cast<int>(std::find(element.corners.begin(), element.corners.end(), vertex) -
                             element.corners.begin());
+}
+
+//! Every element starts from the same solved patch: the result does not depend on the order.
+void bend_all(const Context& context, std::vector<BentElement>& elements)
+{
+    std::vector<Frame> frames;
+    std::vector<std::array<Vec3, 4>> corners;
+    for (const BentElement& e : elements) {
+        const std::array<Vec3, 4> c = corner_positions(context.surface, e.corners);
+        frames.push_back(frame_of(c, e.outward));
+        corners.push_back(inside(frames.back(), c));
+    }
+    const SheetMechanics mechanics = sheet_mechanics(context.element, context.hooks, mean_corners(corners));
+    for_each_in_two_threads(
+        elements.size(), [&](std::size_t i) { elements[i].patch = outside(frames[i], bend(mechanics, corners[i])); });
 }
 
 //! Where a hook's point lies on the neighbour's flat piece: as far from the node, as far inside its long side.
@@ -175,25 +198,11 @@ void lay_hooks(const Context& context, const std::vector<BentElement>& elements,
             continue;
         }
         const Vec2 q = on_neighbour(context, e, *other, h);
-        const Vec3 over = bent_position(other->patch, q) + lift * bent_normal(other->patch, q, other->outward);
+        const Vec3 normal = bent_normal(other->patch, q, other->outward);
+        const Vec3 over = bent_position(other->patch, q) + lift * normal;
         e.points[h.point] += h.share * (over - e.points[h.point]);
+        e.normals[h.point] = ((1 - h.share) * e.normals[h.point] + h.share * normal).normalized();
     }
-}
-
-//! Normals of the bent triangles, weighted by angle-free area, on the outer side.
-std::vector<Vec3> vertex_normals(const FlatSheet& sheet, const BentElement& e)
-{
-    std::vector<Vec3> normals(sheet.points.size(), Vec3::Zero());
-    for (const auto& t : sheet.triangles) {
-        const Vec3 n = (e.points[t[1]] - e.points[t[0]]).cross(e.points[t[2]] - e.points[t[0]]);
-        for (const int v : t) {
-            normals[v] += n;
-        }
-    }
-    for (Vec3& n : normals) {
-        n = n.normalized() * static_cast<double>(static_cast<int>(e.outward));
-    }
-    return normals;
 }
 
 void shape_element(const Context& context, const std::vector<BentElement>& elements, std::size_t i, BentElement& e)
@@ -201,9 +210,9 @@ void shape_element(const Context& context, const std::vector<BentElement>& eleme
     e.points.reserve(context.sheet.points.size());
     for (const Vec2& p : context.sheet.points) {
         e.points.push_back(bent_position(e.patch, p));
+        e.normals.push_back(bent_normal(e.patch, p, e.outward));
     }
     lay_hooks(context, elements, i, e);
-    e.normals = vertex_normals(context.sheet, e);
 }
 
 //! \name Measuring
@@ -302,7 +311,7 @@ Expected<BentSurface> bent_surface(const Surface& surface, const Element& elemen
     if (!outline) {
         return tl::make_unexpected(outline.error());
     }
-    Context context{surface, element, hooks, sheet_mechanics(element, hooks), flat_sheet(*outline, options), {}, {}};
+    Context context{surface, element, hooks, flat_sheet(*outline, options), {}, {}};
     context.hook_points = find_hook_points(context.sheet, element, hooks);
     context.faces_of_edge = find_edges(surface);
 

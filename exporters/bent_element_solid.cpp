@@ -11,7 +11,7 @@ Vec3 rim_direction(const BentSurface& bent, const BentElement& e, std::size_t i)
 {
     const std::size_t n = bent.sheet.rim;
     const Vec3 along = e.points[(i + 1) % n] - e.points[(i + n - 1) % n];
-    return along.cross(e.normals[i]).normalized() * static_cast<double>(static_cast<int>(e.outward));
+    return along.cross(e.normals[i]).normalized() * sign(e.outward);
 }
 
 } // namespace

@@ -20,14 +20,15 @@ constexpr int supersampling = 3;
 Scene scene_of(const BentSurface& bent)
 {
     Scene scene;
-    for (const BentElement& e : bent.elements) {
+    for (std::size_t f = 0; f < bent.elements.size(); ++f) {
+        const BentElement& e = bent.elements[f];
         const int first = static_cast<int>(scene.points.size());
         scene.points.insert(scene.points.end(), e.points.begin(), e.points.end());
         scene.normals.insert(scene.normals.end(), e.normals.begin(), e.normals.end());
         for (const auto& t : bent.sheet.triangles) {
             scene.triangles.push_back({first + t[0], first + t[1], first + t[2]});
         }
-        scene.tints.insert(scene.tints.end(), bent.sheet.triangles.size(), e.outward == Outward::Back ? 1 : 0);
+        scene.elements.insert(scene.elements.end(), bent.sheet.triangles.size(), static_cast<std::int32_t>(f));
     }
     return scene;
 }
@@ -75,19 +76,20 @@ Lights make_lights(const Scene& scene, const PictureCamera& camera)
     return lights;
 }
 
-//! How much of the key light reaches \p p, 0..1: the mean of 5 x 5 comparisons.
+//! How much of the key light reaches \p p, 0..1: the mean of 7 x 7 soft comparisons.
 float key_light(const Lights& lights, const Vec3& p)
 {
     const Vec3 s = lights.shadow_projection(p);
     const double slack = 0.012 * lights.radius;
-    int lit = 0;
+    double lit = 0;
     int asked = 0;
-    for (int dy = -2; dy <= 2; ++dy) {
-        for (int dx = -2; dx <= 2; ++dx) {
-            const int x = static_cast<int>(s.x()) + 2 * dx;
-            const int y = static_cast<int>(s.y()) + 2 * dy;
+    for (int dy = -3; dy <= 3; ++dy) {
+        for (int dx = -3; dx <= 3; ++dx) {
+            const int x = static_cast<int>(s.x()) + dx;
+            const int y = static_cast<int>(s.y()) + dy;
             if (x >= 0 && y >= 0 && x < lights.shadow.width && y < lights.shadow.height) {
-                lit += s.z() < lights.shadow.depth[lights.shadow.at(x, y)] + slack ? 1 : 0;
+                const double behind = (s.z() - lights.shadow.depth[lights.shadow.at(x, y)]) / slack;
+                lit += std::clamp(2 - behind, 0.0, 1.0);
                 ++asked;
             }
         }
@@ -95,22 +97,38 @@ float key_light(const Lights& lights, const Vec3& p)
     return asked == 0 ? 1.0F : static_cast<float>(lit) / static_cast<float>(asked);
 }
 
-//! Darkening in clefts: how many of 16 places round the sample lie clearly before it.
+//! Darkening in clefts: how many of 32 places round the sample lie clearly before it.
 float openness(const Samples& s, int x, int y, double reach_px, double reach_mm)
 {
     const float here = s.depth[s.at(x, y)];
     double hidden = 0;
-    for (int k = 0; k < 16; ++k) {
+    for (int k = 0; k < 32; ++k) {
         const double angle = 2.399963 * k;
-        const double r = reach_px * std::sqrt((k + 0.5) / 16);
+        const double r = reach_px * std::sqrt((k + 0.5) / 32);
         const int sx = std::clamp(x + static_cast<int>(std::lround(r * std::cos(angle))), 0, s.width - 1);
         const int sy = std::clamp(y + static_cast<int>(std::lround(r * std::sin(angle))), 0, s.height - 1);
-        const double before = here - s.depth[s.at(sx, sy)];
-        if (before > 0.04 * reach_mm) {
-            hidden += before < 2 * reach_mm ? 1 : 0.25;
+        const double before = std::min<double>(here - s.depth[s.at(sx, sy)], 2 * reach_mm) / reach_mm;
+        hidden += std::clamp((before - 0.05) / 0.6, 0.0, 1.0);
+    }
+    return static_cast<float>(1 - hidden / 32);
+}
+
+//! The line of shadow that a sheet throws on one close behind it: how the hooks and rims are told apart.
+float contact(const Samples& s, int x, int y, double reach_px)
+{
+    const std::size_t here = s.at(x, y);
+    double shade = 0;
+    for (int k = 0; k < 12; ++k) {
+        const double angle = 2.399963 * k;
+        const double r = reach_px * std::sqrt((k + 0.5) / 12);
+        const int sx = std::clamp(x + static_cast<int>(std::lround(r * std::cos(angle))), 0, s.width - 1);
+        const int sy = std::clamp(y + static_cast<int>(std::lround(r * std::sin(angle))), 0, s.height - 1);
+        const std::size_t there = s.at(sx, sy);
+        if (s.element[there] >= 0 && s.element[there] != s.element[here] && s.depth[there] < s.depth[here]) {
+            shade += 1;
         }
     }
-    return static_cast<float>(1 - hidden / 16);
+    return static_cast<float>(1 - 0.6 * std::min(1.0, shade / 6));
 }
 
 //! \}
@@ -121,6 +139,7 @@ struct Shading
     const Samples& samples;
     const Projection& projection;
     const Lights& lights;
+    const BentSurface& bent;
     double reach_mm = 20; //!< of the darkening in clefts
 };
 
@@ -131,6 +150,7 @@ struct Surroundings
 {
     float open = 1;
     float key = 1;
+    float contact = 1;
 };
 
 Surroundings surroundings(const Shading& s, int x, int y)
@@ -138,7 +158,7 @@ Surroundings surroundings(const Shading& s, int x, int y)
     const double depth = s.samples.depth[s.samples.at(x, y)];
     const Vec3 p = s.projection.unproject(x + 0.5, y + 0.5, depth);
     const double px = s.reach_mm * 0.5 * s.projection.height / (s.projection.camera.tangent * depth);
-    return {openness(s.samples, x, y, px, s.reach_mm), key_light(s.lights, p)};
+    return {openness(s.samples, x, y, px, s.reach_mm), key_light(s.lights, p), contact(s.samples, x, y, 0.09 * px)};
 }
 
 //! Opaque-ish plastic under studio light; the inside is dim.
@@ -154,10 +174,11 @@ Color plastic(const Shading& s, const Vec3& p, const Vec3& n, const Color& tint,
     const Vec3 half = (view + s.lights.key).normalized();
     const float gloss = static_cast<float>(std::pow(std::max(0.0, n.dot(half)), 60)) * key;
     const float edge = static_cast<float>(std::pow(1 - std::max(0.0, n.dot(view)), 4));
-    const Color ambient = open * (sky * Color(0.36F, 0.40F, 0.46F) + (1 - sky) * Color(0.24F, 0.20F, 0.17F));
+    const Color ambient =
+        (0.25F + 0.75F * open) * (sky * Color(0.36F, 0.40F, 0.46F) + (1 - sky) * Color(0.24F, 0.20F, 0.17F));
     const Color light = ambient + key * Color(0.78F, 0.74F, 0.66F) + open * fill * Color(0.16F, 0.17F, 0.20F);
     const Color body = tint.cwiseProduct(light) * (inside ? 0.55F : 1.0F);
-    return body + Color::Constant(0.20F * gloss + 0.10F * edge * open);
+    return around.contact * (body + Color::Constant(0.20F * gloss + 0.10F * edge * open));
 }
 
 //! Lit by a bulb in the middle: one sheet glows, two together less, the inside is bright.
@@ -168,12 +189,12 @@ Color glowing(const Shading& s, const Vec3& p, const Vec3& n, const Color& tint,
     const double distance = to_bulb.norm();
     const float facing = static_cast<float>(std::abs(n.dot(to_bulb)) / std::max(distance, 1e-9));
     const auto falloff =
-        static_cast<float>(std::pow(0.75 * s.lights.radius / std::max(distance, 0.3 * s.lights.radius), 1.2));
-    const float through = inside ? 1.7F : (sheets > 1 ? 0.52F : 1.0F);
-    const Color warm = tint.cwiseProduct(Color(1.0F, 0.70F, 0.36F));
+        static_cast<float>(std::pow(0.7 * s.lights.radius / std::max(distance, 0.3 * s.lights.radius), 1.2));
+    const float through = inside ? 1.15F : (sheets > 1 ? 0.42F : 0.72F);
+    const Color warm = tint.cwiseProduct(Color(1.0F, 0.64F, 0.28F));
     const Color surface = plastic(s, p, n, tint, around, inside);
-    return 0.16F * surface +
-           warm * (through * falloff * (0.25F + 0.85F * facing * facing)) * (0.75F + 0.25F * around.open);
+    return 0.16F * surface + warm * (through * falloff * (0.25F + 0.85F * facing * facing)) *
+                                 (0.6F + 0.4F * around.open) * (0.5F + 0.5F * around.contact);
 }
 
 Color sample_color(const Shading& s, int x, int y, const Surroundings& around)
@@ -186,7 +207,7 @@ Color sample_color(const Shading& s, int x, int y, const Surroundings& around)
     if (inside) {
         n = -n;
     }
-    const Color& tint = sheet_tints[s.samples.tint[i]];
+    const Color& tint = sheet_tints[s.bent.elements[s.samples.element[i]].outward == Outward::Back ? 1 : 0];
     return s.options.lamp == LampLook::On ? glowing(s, p, n, tint, around, inside, s.samples.sheets[i])
                                           : plastic(s, p, n, tint, around, inside);
 }
@@ -292,7 +313,7 @@ Expected<std::string> picture_png(const BentSurface& bent, const PictureOptions&
     projection.height = options.height * supersampling;
     const Samples samples = rasterise(scene, projection, 9);
     const Lights lights = make_lights(scene, projection.camera);
-    const Shading shading{options, samples, projection, lights};
+    const Shading shading{options, samples, projection, lights, bent};
     std::vector<std::uint8_t> rgba(static_cast<std::size_t>(options.width) * options.height * 4);
     for_each_in_two_threads(static_cast<std::size_t>(options.height), [&](std::size_t y) {
         for (int x = 0; x < options.width; ++x) {

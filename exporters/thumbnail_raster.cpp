@@ -47,7 +47,7 @@ Samples empty_samples(int width, int height)
     s.height = height;
     s.depth.assign(count, std::numeric_limits<float>::infinity());
     s.normal.assign(count, Eigen::Vector3f::Zero());
-    s.tint.assign(count, 0);
+    s.element.assign(count, -1);
     s.sheets.assign(count, 0);
     return s;
 }
@@ -89,7 +89,7 @@ Samples rasterise(const Scene& scene, const Projection& projection, double sheet
         scan(corners(projected, t), s.width, s.height, [&](std::size_t i, float depth, const Vec3& b) {
             if (depth < s.depth[i]) {
                 s.depth[i] = depth;
-                s.tint[i] = scene.tints[f];
+                s.element[i] = scene.elements[f];
                 const Vec3 n = b[0] * scene.normals[t[0]] + b[1] * scene.normals[t[1]] + b[2] * scene.normals[t[2]];
                 s.normal[i] = n.normalized().cast<float>();
             }

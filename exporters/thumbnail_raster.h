@@ -7,24 +7,24 @@
 
 namespace rhombloom {
 
-//! \brief Triangles to draw, two-sided; one normal per point and one tint per triangle.
+//! \brief Triangles to draw, two-sided; one normal per point and one element number per triangle.
 struct Scene
 {
     std::vector<Vec3> points;  //!< mm
     std::vector<Vec3> normals; //!< unit, outward
     std::vector<std::array<int, 3>> triangles;
-    std::vector<std::uint8_t> tints; //!< 0 front, 1 flipped
+    std::vector<std::int32_t> elements;
 };
 
-//! \brief What is seen in each sample: depth from the viewer, normal, tint, and how many sheets lie together.
+//! \brief What is seen in each sample: depth from the viewer, normal, element, and how many sheets lie together.
 struct Samples
 {
     int width = 0;
     int height = 0;
     std::vector<float> depth;            //!< mm before the eye, positive; infinity where there is nothing
     std::vector<Eigen::Vector3f> normal; //!< outward
-    std::vector<std::uint8_t> tint;
-    std::vector<std::uint8_t> sheets; //!< within a few mm of the first
+    std::vector<std::int32_t> element;   //!< -1: none
+    std::vector<std::uint8_t> sheets;    //!< within a few mm of the first
 
     std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
