@@ -1,5 +1,6 @@
 #pragma once
 
+#include "exporters/bending_modes.h"
 #include "exporters/gltf.h"
 #include "exporters/preview.h"
 
@@ -42,5 +43,10 @@ struct CompressedPreview
 
 //! \brief One Draco mesh per side, `_ELEMENT_ID` = face number on every point; the labels stand in the node's extras.
 Expected<CompressedPreview> merged_glb(const PreviewModel& model, const PreviewOptions& options);
+
+//! \brief One Draco element with bending modes as morph targets (and a last target that lays it flat); a node with
+//! weights per element, grouped by component and side. Its error says whether the modes were enough.
+Expected<CompressedPreview> modes_glb(const PreviewModel& model, const BendingModes& modes,
+                                      const PreviewOptions& options);
 
 } // namespace rhombloom
