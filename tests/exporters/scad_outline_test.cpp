@@ -1,5 +1,6 @@
 // The outline that OpenSCAD draws against ours, point by point and as an area. OpenSCAD prints six digits only, so
 // the points are compared inside OpenSCAD and the answer is a verdict and a deviation.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <random>
@@ -9,6 +10,7 @@
 #include <unistd.h>
 
 #include "core/text.h"
+#include "exporters/kerf.h"
 #include "exporters/scad.h"
 
 namespace rhombloom {
@@ -107,13 +109,18 @@ std::vector<HookParameters> valid_parameters(int count)
     return sets;
 }
 
-std::string element_scad(const HookParameters& p)
+std::string element_scad(const PieceParameters& p)
 {
     return hook_files(p, "parity").value().at("hooks/element.scad");
 }
 
+std::string element_scad(const HookParameters& p)
+{
+    return element_scad(PieceParameters{p, {}});
+}
+
 //! With arcs drawn so finely that their chords cut off less area than what is allowed.
-std::string fine_scad(const HookParameters& p)
+std::string fine_scad(const PieceParameters& p)
 {
     return with_literal(element_scad(p), "segments", std::to_string(finest)).value();
 }
@@ -194,9 +201,10 @@ ClipperLib::Paths svg_paths(const std::string& svg)
 }
 
 //! Ours, arcs as good as exact.
-std::vector<Vec2> exact_points(const HookParameters& p)
+std::vector<Vec2> exact_points(const PieceParameters& p)
 {
-    return flatten(element_outline(p).value(), 1e-5);
+    const Path outline = element_outline(p.hook).value();
+    return flatten(p.kerf.x > 0 ? tool_path(outline, p.kerf).value().contour : outline, 1e-5);
 }
 
 Vec2 middle(const HookParameters& p)
@@ -205,7 +213,7 @@ Vec2 middle(const HookParameters& p)
 }
 
 //! What the template of \p p exports and \p ours differ by in the window about \p centre (relative to the middle), mm2.
-double difference_in_window(const fs::path& folder, const HookParameters& p, const HookParameters& ours,
+double difference_in_window(const fs::path& folder, const PieceParameters& p, const PieceParameters& ours,
                             const Vec2& centre)
 {
     const std::string shift = "[" + to_text(-centre.x()) + ", " + to_text(-centre.y()) + "]";
@@ -215,7 +223,7 @@ double difference_in_window(const fs::path& folder, const HookParameters& p, con
     EXPECT_TRUE(run.ok) << run.log;
     std::vector<Vec2> points = exact_points(ours);
     for (Vec2& q : points) {
-        q -= middle(ours) + centre;
+        q -= middle(ours.hook) + centre;
     }
     const double h = window / 2;
     const ClipperLib::Paths frame = {clipper_path({{-h, -h}, {h, -h}, {h, h}, {-h, h}})};
@@ -224,9 +232,9 @@ double difference_in_window(const fs::path& folder, const HookParameters& p, con
 }
 
 //! mm2, over as many windows as the element of \p p needs.
-double symmetric_difference(const fs::path& folder, const HookParameters& p, const HookParameters& ours)
+double symmetric_difference(const fs::path& folder, const PieceParameters& p, const PieceParameters& ours)
 {
-    const Box box = bounds(element_outline(p).value());
+    const Box box = bounds(element_outline(p.hook).value());
     const Vec2 size = box.max - box.min;
     const int columns = static_cast<int>(std::ceil(size.x() / window));
     const int rows = static_cast<int>(std::ceil(size.y() / window));
@@ -238,6 +246,23 @@ double symmetric_difference(const fs::path& folder, const HookParameters& p, con
     return sum;
 }
 //! \}
+
+//! Largest distance from a point of \p from to the polygon \p to.
+double one_sided_distance(const std::vector<Vec2>& from, const std::vector<Vec2>& to)
+{
+    double worst = 0;
+    for (const Vec2& p : from) {
+        double nearest = 1e300;
+        for (std::size_t i = 0; i < to.size(); ++i) {
+            const Vec2& a = to[i];
+            const Vec2 ab = to[(i + 1) % to.size()] - a;
+            const double t = std::clamp((p - a).dot(ab) / std::max(ab.squaredNorm(), 1e-300), 0.0, 1.0);
+            nearest = std::min(nearest, (p - a - t * ab).squaredNorm());
+        }
+        worst = std::max(worst, nearest);
+    }
+    return std::sqrt(worst);
+}
 
 #define REQUIRE_OPENSCAD()                                                                                             \
     if (!has_openscad()) {                                                                                             \
@@ -267,11 +292,47 @@ TEST(ScadOutline, CoversTheAreaOfOurs)
     const Folder folder;
     double worst = 0;
     for (const HookParameters& p : valid_parameters(parameter_sets)) {
-        const double difference = symmetric_difference(folder.path, p, p);
+        const double difference = symmetric_difference(folder.path, {p, {}}, {p, {}});
         EXPECT_LE(difference, 0.05) << "la " << p.la;
         worst = std::max(worst, difference);
     }
     std::printf("%d parameter sets, largest symmetric difference %.3g mm2\n", parameter_sets, worst);
+}
+
+// The kerf of OpenSCAD's offset against our exact one: same edge on every side, different widths in x and y too.
+TEST(ScadOutline, IsCutWithTheKerfOfOurs)
+{
+    REQUIRE_OPENSCAD();
+    const Folder folder;
+    for (const Kerf& kerf : {Kerf{0.1, 0.1}, Kerf{0.25, 0.25}, Kerf{0.15, 0.3}}) {
+        const PieceParameters p{hook_parameters({}), kerf};
+        EXPECT_LE(symmetric_difference(folder.path, p, p), 0.05) << "kerf " << kerf.x << ", " << kerf.y;
+        EXPECT_GT(symmetric_difference(folder.path, p, {p.hook, {}}), 10);
+    }
+}
+
+// As it comes out of the template, without finer arcs.
+TEST(ScadOutline, IsWithinAHundredthOfAMillimetreAsItComes)
+{
+    REQUIRE_OPENSCAD();
+    const Folder folder;
+    for (const double la : {40.0, 80.0, 200.0}) {
+        Element element;
+        element.la = la;
+        element.lb = 1.1 * la;
+        const HookParameters p = hook_parameters(element);
+        const auto paths = svg_paths(openscad(folder.path, element_scad(p), ".svg").output);
+        ASSERT_EQ(paths.size(), 1u);
+        const Path outline = element_outline(p).value();
+        EXPECT_NEAR(total_area(paths) / area(outline), 1, 1e-4);
+        std::vector<Vec2> theirs;
+        for (const auto& q : paths[0]) {
+            theirs.push_back(middle(p) + clipper * Vec2(static_cast<double>(q.X), static_cast<double>(q.Y)));
+        }
+        const auto ours = flatten(outline, 1e-3);
+        EXPECT_LE(one_sided_distance(theirs, ours), 0.01);
+        EXPECT_LE(one_sided_distance(ours, theirs), 0.01);
+    }
 }
 
 // The comparisons above can fail: a hundredth of a millimetre in one dimension is seen by each of them.
@@ -285,8 +346,8 @@ TEST(ScadOutline, IsSeenToDifferWhenPerturbed)
     const Outcome points =
         openscad(folder.path, comparison(element_scad(p), *outline_points(perturbed, segments)), ".echo");
     EXPECT_GT(deviation(points), 0.005);
-    EXPECT_GT(symmetric_difference(folder.path, p, perturbed), 0.05);
-    EXPECT_LE(symmetric_difference(folder.path, p, p), 0.05);
+    EXPECT_GT(symmetric_difference(folder.path, {p, {}}, {perturbed, {}}), 0.05);
+    EXPECT_LE(symmetric_difference(folder.path, {p, {}}, {p, {}}), 0.05);
 }
 
 // A template that no longer draws our outline says so itself.

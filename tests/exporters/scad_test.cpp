@@ -127,6 +127,11 @@ TEST(ScadTemplates, HaveTheLimitsAndRulesOfTheTable)
     }
 }
 
+TEST(ScadTemplates, AreDescribedWithTheTable)
+{
+    EXPECT_TRUE(contains(template_text("README.md"), "\n" + parameter_table_markdown() + "\n"));
+}
+
 TEST(ScadTemplates, ShareTheirBlocksWordForWord)
 {
     const std::string element = template_text("element.scad");
