@@ -96,7 +96,8 @@ Path reference_square(const std::vector<LaidPiece>& pieces, const SheetSize& she
     return named(rectangle(Vec2::Constant(reference_inset), sizes[2], sizes[2]), id);
 }
 
-std::vector<std::size_t> order_of(const std::vector<LaidPiece>& pieces)
+//! Apart from each other, because cuts warm the film.
+std::vector<std::size_t> order_of_cuts(const std::vector<LaidPiece>& pieces)
 {
     std::vector<Vec2> starts;
     std::vector<Path> contours;
@@ -105,6 +106,18 @@ std::vector<std::size_t> order_of(const std::vector<LaidPiece>& pieces)
         contours.push_back(piece.finished);
     }
     return cutting_order(starts, neighbours(contours, neighbour_reach), Vec2::Zero());
+}
+
+//! The shortest way round.
+std::vector<std::size_t> order_of_marks(const std::vector<LaidPiece>& pieces)
+{
+    std::vector<Vec2> starts;
+    for (const LaidPiece& piece : pieces) {
+        const Path& first = piece.engraved.empty() ? piece.finished : piece.engraved.front();
+        starts.push_back(first.vertices.front().point);
+    }
+    const Neighbours none(pieces.size(), std::vector<bool>(pieces.size(), false));
+    return cutting_order(starts, none, Vec2::Zero());
 }
 
 struct LayerKind
@@ -226,8 +239,10 @@ Drawing cut_drawing(const std::vector<LaidPiece>& pieces, const std::vector<std:
             drawing.layers.push_back({kind.name, kind.use, cut_colour(options.colours, kind.use), {}});
         }
     }
-    for (const std::size_t i : order_of(pieces)) {
+    for (const std::size_t i : order_of_marks(pieces)) {
         append(drawing.layers[0].paths, pieces[i].engraved, ids[i] + "-mark");
+    }
+    for (const std::size_t i : order_of_cuts(pieces)) {
         append(drawing.layers[1].paths, pieces[i].inner, ids[i] + "-slit");
         drawing.layers[2].paths.push_back(named(pieces[i].outer, ids[i]));
     }
