@@ -234,6 +234,7 @@ std::string size(double value)
 //! What the closed forms need; negated comparisons let NaN fail.
 Expected<void> check_closed_forms(const HookParameters& p)
 {
+    const double least = 0.05; // shorter segments are lost in laser programs
     const double seat = seat_tangent(p);
     const double rim = rim_end(p).x();
     const Need needs[] = {
@@ -248,11 +249,13 @@ Expected<void> check_closed_forms(const HookParameters& p)
          "neck setback and relief (" + size(neck_depth(p)) + ") reach across the node hole: make them smaller"},
         {p.lip_rounding > 0 && p.lip > p.lip_rounding,
          "lip rounding (" + size(p.lip_rounding) + ") must be positive and under the lip (" + size(p.lip) + ")"},
-        {p.barb <= 0 || (seat < p.neck_setback && seat < p.lip - p.lip_rounding),
+        {p.relief == 0 || p.relief >= least,
+         "the relief (" + size(p.relief) + ") must be 0 or at least " + size(least)},
+        {p.barb <= 0 || (seat + least <= p.neck_setback && seat + least <= p.lip - p.lip_rounding),
          "the barb (" + size(p.barb) + ") is too steep to be rounded: make it smaller or the neck setback larger"},
         {p.lb > 2 * (pivot_radius(p) + p.seat_clearance - p.barb + p.lip_rounding),
          "the long side (" + size(p.lb) + ") leaves no straight edge between its hooks: make the finger width smaller"},
-        {p.la - 2 * rim > 1, "the hooks of a short side (" + size(p.la) +
+        {p.la - 2 * rim > 2, "the hooks of a short side (" + size(p.la) +
                                  ") leave no room for the soft curve between them: make finger width or length "
                                  "smaller"},
         {p.scoop_depth >= -rim_end(p).y(), "the scoop depth (" + size(p.scoop_depth) + ") is less than the rim's (" +
