@@ -34,6 +34,7 @@ struct Extrude
     Reference apex;
     std::string brush;
     Vec3 by = Vec3::Zero(); //!< mm
+    int candidate = 0;      //!< rank of the choice made for the first period
     bool symmetric = false;
 };
 

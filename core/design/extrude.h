@@ -13,6 +13,7 @@ struct ExtrudeRequest
     Vec3 drag = Vec3::Zero(); //!< from the apex to where the new tip is wanted, mm
     std::string component;    //!< name of the new elements' part
     Symmetry symmetry;        //!< of the design; see \c all_images
+    int candidate = 0;        //!< which of the candidates that settle is taken for the first period
     bool all_images = false;  //!< do the same at every image of the apex
     int first_serial = -1;    //!< of the added elements; -1: the one after the target's largest
 };
@@ -53,7 +54,8 @@ struct Extrusion
 
 //! \brief Extrude and embed. A drag longer than the brush repeats it at the new tip as long as that brings the tip
 //! closer to the end of the drag.
-//! \details Of the candidates the first is taken that embeds and follows the drag within 30 degrees, else the closest.
+//! \details Of the candidates the first is taken that embeds and follows the drag within 30 degrees, else the closest;
+//! or, when the request names a rank, the one of that rank among those that settle.
 Expected<Extrusion> extrude(const Surface& target, const Element& element, const BaseShape& brush,
                             const ExtrudeRequest& request, const EmbedOptions& embedding = {});
 

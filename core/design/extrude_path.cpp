@@ -12,6 +12,7 @@ namespace {
 
 constexpr double follows = 0.8660254037844386; // cosine of 30 degrees
 constexpr int max_periods = 200;
+constexpr int trial_iterations = 200; // a candidate that needs more is passed over
 constexpr int embedded_choices = 8; // candidates that are embedded before the best of them is taken
 
 int next_serial(const Surface& surface)
@@ -70,8 +71,15 @@ bool better(const Attempt& a, const Attempt& b)
     return std::pair(!settled(a.embedding), a.distance) < std::pair(!settled(b.embedding), b.distance);
 }
 
-Expected<Attempt> period(const Surface& target, const Element& element, const BaseShape& brush,
-                         const ExtrudeRequest& request, const EmbedOptions& embedding)
+tl::unexpected<Error> nothing_fits(const BaseShape& brush, const ExtrudeRequest& request, const std::string& reason)
+{
+    return refuse("no way to join " + brush.name + " at vertex " + std::to_string(request.apex.idx()) +
+                  " can be built: " + reason);
+}
+
+//! The first good one, else the best of the first few.
+Expected<Attempt> best_attempt(const Surface& target, const Element& element, const BaseShape& brush,
+                               const ExtrudeRequest& request, const EmbedOptions& embedding)
 {
     auto candidates = extrude_candidates(target, element, brush, request);
     if (!candidates) {
@@ -96,11 +104,36 @@ Expected<Attempt> period(const Surface& target, const Element& element, const Ba
             break;
         }
     }
-    if (!best) {
-        return refuse("no way to join " + brush.name + " at vertex " + std::to_string(request.apex.idx()) +
-                      " can be built: " + last.message);
+    return best ? Expected<Attempt>(std::move(*best)) : nothing_fits(brush, request, last.message);
+}
+
+//! The one of the wanted rank among those that settle.
+Expected<Attempt> ranked_attempt(const Surface& target, const Element& element, const BaseShape& brush,
+                                 const ExtrudeRequest& request, const EmbedOptions& embedding)
+{
+    auto candidates = extrude_candidates(target, element, brush, request, 2 * request.candidate + 24);
+    if (!candidates) {
+        return tl::make_unexpected(candidates.error());
     }
-    return std::move(*best);
+    int found = 0;
+    for (const ExtrudeCandidate& candidate : *candidates) {
+        auto tried = attempt(target, element, request, candidate, embedding);
+        if (tried && settled(tried->embedding) && found++ == request.candidate) {
+            return tried;
+        }
+    }
+    return nothing_fits(brush, request,
+                        "there is no candidate " + std::to_string(request.candidate) + ", only " +
+                            std::to_string(found) + " settle");
+}
+
+Expected<Attempt> period(const Surface& target, const Element& element, const BaseShape& brush,
+                         const ExtrudeRequest& request, const EmbedOptions& embedding)
+{
+    EmbedOptions limited = embedding;
+    limited.max_iterations = std::min(embedding.max_iterations, trial_iterations);
+    return request.candidate > 0 ? ranked_attempt(target, element, brush, request, limited)
+                                 : best_attempt(target, element, brush, request, limited);
 }
 
 } // namespace
@@ -124,6 +157,7 @@ Expected<Extrusion> extrude(const Surface& target, const Element& element, const
     result.first = reached->candidate;
     result.periods = 1;
     ExtrudeRequest next = request;
+    next.candidate = 0;
     while (result.periods < max_periods) {
         next.apex = reached->tips.front();
         next.first_serial = reached->next_serial;

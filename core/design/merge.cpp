@@ -349,6 +349,27 @@ Expected<std::vector<MergeCandidate>> four_candidates(const Surface& a, const Su
     return result;
 }
 
+namespace {
+
+Expected<std::vector<MergeCandidate>> search(const Meeting& where, const Element& element, const MergeOptions& options)
+{
+    const Interfaces first = nearby_interfaces(where.a, element, interfaces_tried, subsets_tried);
+    const Interfaces second = nearby_interfaces(where.b, element, interfaces_tried, subsets_tried);
+    const auto choices = compatible_choices(first, second, element, options, zip_variants);
+    auto result = valid_candidates(choices, where.a.surface, where.b.surface, element, options.count);
+    if (result.empty()) {
+        return no_candidate(first, second, choices.size());
+    }
+    return result;
+}
+
+bool looks_symmetric(const std::vector<MergeCandidate>& candidates, const Element& element)
+{
+    return candidates.front().asymmetry < 0.1 * element.la;
+}
+
+} // namespace
+
 Expected<std::vector<MergeCandidate>> merge_candidates(const Surface& a, const Surface& b, const Element& element,
                                                        const MergeOptions& options)
 {
@@ -356,14 +377,16 @@ Expected<std::vector<MergeCandidate>> merge_candidates(const Surface& a, const S
     if (!where) {
         return tl::make_unexpected(where.error());
     }
-    const Interfaces first = nearby_interfaces(where->a, element, interfaces_tried, subsets_tried);
-    const Interfaces second = nearby_interfaces(where->b, element, interfaces_tried, subsets_tried);
-    const auto choices = compatible_choices(first, second, element, options, zip_variants);
-    auto result = valid_candidates(choices, a, b, element, options.count);
-    if (result.empty()) {
-        return no_candidate(first, second, choices.size());
+    if (options.symmetry.kind != Symmetry::Kind::None) {
+        Meeting tied = *where;
+        if (tie_images(tied.a, element, options.symmetry) && tie_images(tied.b, element, options.symmetry)) {
+            auto result = search(tied, element, options);
+            if (result && looks_symmetric(*result, element)) {
+                return result;
+            }
+        }
     }
-    return result;
+    return search(*where, element, options);
 }
 
 Expected<Merged> merge(const Surface& a, const Surface& b, const Element& element, int index,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <queue>
 #include <set>
@@ -152,15 +153,38 @@ private:
 
 MeetingSide merge_side(const Surface& surface, const std::vector<char>& intersecting, const Surface& other)
 {
-    MeetingSide side{surface,
-                     intersecting,
-                     outside_elements(surface, intersecting, other),
-                     band_elements(surface, intersecting),
-                     {}};
+    MeetingSide side{
+        surface, intersecting, outside_elements(surface, intersecting, other), band_elements(surface, intersecting), {},
+        {}};
     for (const Face f : side.band) {
+        side.choices.push_back({static_cast<int>(side.depth.size())});
         side.depth.push_back(signed_distance(other, centre(surface, f)));
     }
     return side;
+}
+
+bool tie_images(MeetingSide& side, const Element& element, const Symmetry& symmetry)
+{
+    std::vector<std::vector<int>> orbits;
+    std::set<int> seen;
+    for (int i = 0; i < static_cast<int>(side.band.size()); ++i) {
+        if (seen.contains(i)) {
+            continue;
+        }
+        std::set<int> orbit = {i};
+        for (const SymmetryImage& image : images(symmetry)) {
+            const auto f = image_face(side.surface, element, image, side.band[i]);
+            const auto found = f ? std::find(side.band.begin(), side.band.end(), *f) : side.band.end();
+            if (found == side.band.end()) {
+                return false;
+            }
+            orbit.insert(static_cast<int>(found - side.band.begin()));
+        }
+        seen.insert(orbit.begin(), orbit.end());
+        orbits.emplace_back(orbit.begin(), orbit.end());
+    }
+    side.choices = std::move(orbits);
+    return true;
 }
 
 std::vector<MergeInterface> paper_interfaces(const MeetingSide& side, const Element& element)
@@ -182,14 +206,16 @@ std::vector<MergeInterface> paper_interfaces(const MeetingSide& side, const Elem
 
 std::vector<MergeInterface> nearby_interfaces(const MeetingSide& side, const Element& element, int count, int tries)
 {
-    std::vector<int> order(side.band.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](int i, int j) { return std::abs(side.depth[i]) < std::abs(side.depth[j]); });
+    std::vector<std::vector<int>> order = side.choices;
+    const auto cost = [&](const std::vector<int>& choice) {
+        return std::accumulate(choice.begin(), choice.end(), 0.0,
+                               [&](double sum, int i) { return sum + std::abs(side.depth[i]); });
+    };
+    std::stable_sort(order.begin(), order.end(), [&](const auto& x, const auto& y) { return cost(x) < cost(y); });
     std::vector<double> costs;
+    std::transform(order.begin(), order.end(), std::back_inserter(costs), cost);
     Mask base = side.outside;
-    for (const int i : order) {
-        costs.push_back(std::abs(side.depth[i]));
+    for (std::size_t i = 0; i < side.band.size(); ++i) {
         base[side.band[i].idx()] = side.depth[i] > 0 ? 1 : 0;
     }
     std::vector<MergeInterface> result;
@@ -197,9 +223,11 @@ std::vector<MergeInterface> nearby_interfaces(const MeetingSide& side, const Ele
     const RunTest runs(side);
     for (int t = 0; t < tries && !subsets.empty() && static_cast<int>(result.size()) < count; ++t) {
         Mask kept = base;
-        for (const int i : subsets.next()) {
-            char& face = kept[side.band[order[i]].idx()];
-            face = face ? 0 : 1;
+        for (const int choice : subsets.next()) {
+            for (const int i : order[choice]) {
+                char& face = kept[side.band[i].idx()];
+                face = face ? 0 : 1;
+            }
         }
         if (runs(kept)) {
             add_interface(side, element, kept, result);

@@ -118,6 +118,7 @@ Expected<Operation> read_extrude(ObjectReader& reader)
     extrude.apex = take_reference(reader, "apex", "vertex");
     extrude.brush = reader.text("brush", "");
     extrude.by = reader.point("by_mm", extrude.by);
+    extrude.candidate = reader.integer("candidate", 0, 0, 1000);
     extrude.symmetric = reader.flag("symmetric", false);
     return finished(reader, std::move(extrude));
 }

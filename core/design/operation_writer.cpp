@@ -47,6 +47,9 @@ ordered_json write(const Extrude& extrude)
     out["apex"] = write_reference(extrude.apex, "vertex");
     out["brush"] = extrude.brush;
     out["by_mm"] = write_point(extrude.by);
+    if (extrude.candidate != 0) {
+        out["candidate"] = extrude.candidate;
+    }
     if (extrude.symmetric) {
         out["symmetric"] = true;
     }

@@ -148,6 +148,7 @@ Expected<void> run(const Extrude& extrude, const Context& context)
     request.apex = *apex;
     request.drag = extrude.by;
     request.component = extrude.id.empty() ? "limb " + std::to_string(context.scene.operations + 1) : extrude.id;
+    request.candidate = extrude.candidate;
     request.symmetry = context.design.symmetry;
     request.all_images = extrude.symmetric;
     request.first_serial = context.scene.next_serial;
