@@ -6,7 +6,7 @@
 /* [What to make] */
 
 // ring, cap: take the place of one element, held by edge clips. hanger: snaps into a node hole. stand: make two
-part = "ring"; // [ring:Ring for a socket, cap:Cap with cord and vents, edge_clip:Edge clip for ring and cap, cord_lock:Strain relief for the cord, hanger:Hanging ring, stand:Small stand]
+part = "hanger"; // [hanger:Hanging ring, ring:Ring for a socket, cap:Cap with cord and vents, edge_clip:Edge clip for ring and cap, cord_lock:Strain relief for the cord, stand:Small stand]
 // print: a solid for STL. cut: the flat profile for SVG or DXF
 output = "print"; // [print:Solid to print, cut:Profile to cut]
 

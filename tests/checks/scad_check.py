@@ -7,10 +7,10 @@ import concurrent.futures
 import json
 import os
 import re
+import resource
 import subprocess
 import sys
 import tempfile
-import time
 
 SOURCE = sys.argv[2]
 TEMPLATES = os.path.join(SOURCE, "templates")
@@ -103,18 +103,23 @@ def check_presets_apply(folder):
             fail(f"preset {preset}: expected slit {slit:g} mm, OpenSCAD said {said.strip()}")
 
 
+def processor_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def check_time(folder):
-    """Best of five, for the largest element of the table: others may use the machine."""
+    """Processor time, because others may use the machine; best of five, for the largest element of the table."""
     for output, suffix in (("cut", ".svg"), ("print", ".stl")):
         times = []
         for _ in range(5):
-            start = time.perf_counter()
+            start = processor_seconds()
             run = openscad(template("element"), os.path.join(folder, "t" + suffix),
                            ["-D", f'output="{output}"', "-D", "la=200", "-D", "lb=220"])
-            times.append(time.perf_counter() - start)
+            times.append(processor_seconds() - start)
             if complaint(run):
                 fail(f"element to {suffix}: {complaint(run)}")
-        print(f"element to {suffix}: {min(times):.3f} s")
+        print(f"element to {suffix}: {min(times):.3f} s of processor time")
         if min(times) > SECONDS:
             fail(f"element to {suffix} takes {min(times):.3f} s, allowed are {SECONDS}")
 
@@ -175,8 +180,8 @@ def check_invalid_values(folder):
     wrong = [(name, key, [f"{key}={literal}"]) for name in NAMES for key, _, limits in parameters(name)
              for literal in invalid_literals(limits)]
     wrong += [("element", key, settings) for key, settings in CONFLICTS]
-    wrong += [("lamp_parts", "part", ["la=40", "lb=44", "thickness=0.2"]),
-              ("lamp_parts", "part", ['socket="other"', "bore=70"]),
+    wrong += [("lamp_parts", "part", ['part="ring"', "la=40", "lb=44", "thickness=0.2"]),
+              ("lamp_parts", "part", ['part="ring"', 'socket="other"', "bore=70"]),
               ("lamp_parts", "stand_width", ['part="stand"', "lamp_radius=60", "stand_width=120"]),
               ("connectors", "rivet_hole", ["rivet_hole=2"]), ("connectors", "rivet_layers", ["rivet_layers=1.5"]),
               ("fit_coupon", "ladder_slits", ["ladder_slits=4.5"])]
