@@ -31,6 +31,24 @@ HookCheck checked(const HookParameters& parameters, const std::string& id, const
     return find(hook_checks(parameters, options), id);
 }
 
+//! How often element 0 overlaps element \p other of a flat node of acute corners, within the reach of the hooks.
+int planar_node(const HookParameters& p, int elements, int other)
+{
+    const Path outline = *element_outline(p);
+    const double reach = pivot_radius(p) + p.slit / 2 + p.finger_length + p.finger_width;
+    const double step = two_pi / elements;
+    ClipperLib::Paths disc = {tests::to_clipper(Path{{{{-reach, 0}, 1}, {{reach, 0}, 1}}, true}, 1e-3)};
+    const ClipperLib::Paths a = {tests::to_clipper(outline, 1e-3)};
+    const ClipperLib::Paths b = {tests::to_clipper(placed(outline, other * step, Vec2::Zero()), 1e-3)};
+    const auto overlap = tests::clipper_combine(ClipperLib::ctIntersection,
+                                                tests::clipper_combine(ClipperLib::ctIntersection, a, b), disc);
+    int count = 0;
+    for (const auto& piece : overlap) {
+        count += tests::clipper_area({piece}) > 1e-3;
+    }
+    return count;
+}
+
 } // namespace
 
 TEST(HookChecks, EveryTableElementPassesAllThirteen)
@@ -205,6 +223,23 @@ TEST(HookChecks, TheCornersOfTheRangePass)
             }
         }
     }
+}
+
+// Elements round a node in one plane: neighbours overlap in one finger and one lip, others not at all.
+TEST(HookChecks, PlanarNodesHaveTwoLayersAtMost)
+{
+    for (const auto& [elements, alpha_deg] : {std::pair{5, 72.0}, std::pair{6, 60.0}}) {
+        const HookParameters p = hook_parameters(tests::element_of(80, 0.5, 1.1, alpha_deg));
+        EXPECT_EQ(planar_node(p, elements, 1), 2) << elements;
+        EXPECT_EQ(planar_node(p, elements, 2), 0) << elements;
+    }
+    // A lip that C6 refuses reaches under the finger of the element after next.
+    const Element seven = tests::element_of(80, 0.5, 1.1, 360.0 / 7);
+    const HookParameters wide = with({{"lip", 6}}, seven);
+    EXPECT_FALSE(checked(wide, "C6").ok);
+    EXPECT_GT(planar_node(wide, 7, 2), 0);
+    EXPECT_TRUE(checked(hook_parameters(seven), "C6").ok);
+    EXPECT_EQ(planar_node(hook_parameters(seven), 7, 2), 0);
 }
 
 } // namespace rhombloom
