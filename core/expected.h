@@ -11,7 +11,8 @@ namespace rhombloom {
 //! \brief A refusal that the user must hear: one sentence that names the place, the value and the remedy.
 struct Error
 {
-    enum class Kind {
+    enum class Kind
+    {
         Input,  //!< the input or the design is at fault (exit 1)
         Machine //!< the machine is: disk full, no permission (exit 3)
     };

@@ -84,10 +84,7 @@ public:
     }
 
 private:
-    Expected<void> failed(int error) const
-    {
-        return machine_failure("cannot write " + target_ + ": " + reason(error));
-    }
+    Expected<void> failed(int error) const { return machine_failure("cannot write " + target_ + ": " + reason(error)); }
 
     std::string target_;
     std::string name_;

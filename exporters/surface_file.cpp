@@ -83,8 +83,8 @@ std::string surface_json(const Surface& surface, const Element& element, const E
     }
     return "{\"format\": \"rhombloom-surface\", \"version\": 1,\n\"element\": " + element_json.dump() + ",\n" +
            lines("vertices_mm", vertices) + ",\n" + lines("vertex_side", sides) + ",\n" + lines("faces", faces) +
-           ",\n" + lines("facing", facing) + ",\n" + lines("component", component) + ",\n\"embedding\": " +
-           embedding_json(embedding).dump() + "}\n";
+           ",\n" + lines("facing", facing) + ",\n" + lines("component", component) +
+           ",\n\"embedding\": " + embedding_json(embedding).dump() + "}\n";
 }
 
 std::string surface_obj(const Surface& surface)

@@ -29,8 +29,8 @@ Expected<int> run_embed(const std::string& design_path, const std::string& outpu
     const EmbedReport& report = replayed->embedding;
     return print(std::to_string(replayed->surface.n_faces()) + " elements, energy " + to_fixed(report.energy, 4) +
                  " mm, largest stretch " + to_fixed(100 * report.max_stretch, 3) + " %, " +
-                 (report.converged ? "converged after " : "NOT converged after ") +
-                 std::to_string(report.iterations) + " iterations; wrote " + output + "\n")
+                 (report.converged ? "converged after " : "NOT converged after ") + std::to_string(report.iterations) +
+                 " iterations; wrote " + output + "\n")
         .map([&] { return report.converged ? 0 : 1; });
 }
 

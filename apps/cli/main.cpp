@@ -8,7 +8,13 @@ namespace {
 
 using namespace rhombloom;
 
-enum ExitCode { success = 0, input_at_fault = 1, wrong_usage = 2, our_fault = 3 };
+enum ExitCode
+{
+    success = 0,
+    input_at_fault = 1,
+    wrong_usage = 2,
+    our_fault = 3
+};
 
 //! One line, whatever a file name or a key in a file may contain.
 std::string one_line(std::string text)
@@ -54,7 +60,8 @@ int run_program(int argc, char** argv)
         add(app, run);
     }
     if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
-        return complain("unknown command \"" + std::string(argv[1]) + "\": expected " + command_names(app), wrong_usage);
+        return complain("unknown command \"" + std::string(argv[1]) + "\": expected " + command_names(app),
+                        wrong_usage);
     }
     try {
         app.parse(argc, argv);
@@ -68,8 +75,7 @@ int run_program(int argc, char** argv)
     if (result) {
         return *result;
     }
-    return complain(result.error().message,
-                    result.error().kind == Error::Kind::Input ? input_at_fault : our_fault);
+    return complain(result.error().message, result.error().kind == Error::Kind::Input ? input_at_fault : our_fault);
 }
 
 } // namespace

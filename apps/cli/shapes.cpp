@@ -22,8 +22,8 @@ struct Row
     int flips = 0;
     int layers = 0;
     bool closed = true;
-    std::map<int, int> valences;         //!< valence -> number of interior vertices
-    std::map<std::string, int> defects;  //!< degrees -> number of interior vertices
+    std::map<int, int> valences;        //!< valence -> number of interior vertices
+    std::map<std::string, int> defects; //!< degrees -> number of interior vertices
 };
 
 Row describe(const BaseShape& shape, const Element& element)

@@ -21,7 +21,6 @@ struct Request
     int second = 0; // 0 when the name has one number only
 };
 
-
 tl::unexpected<Error> impossible(const Request& request, const std::string& what)
 {
     return refuse("shape \"" + request.name + "\" cannot be built: " + what);
@@ -199,12 +198,12 @@ tl::unexpected<Error> unknown_shape(const std::string& name)
 
 std::vector<std::string> base_shape_names()
 {
-    return {"ball-6",     "ball-12",     "ball-30",     "ball-36",     "ball-48",    "ball-90",    "ball-120",
-            "ball-210",   "ball-270",    "rhombic-6",   "rhombic-12",  "rhombic-20", "rhombic-30", "polar-3x3",
-            "polar-3x4",  "polar-4x3",   "polar-5x3",   "polar-4x4",   "polar-5x4",  "polar-3x7",  "polar-4x6",
-            "polar-5x6",  "polar-5x8",   "polar-6x6",   "checker-24",  "checker-48", "checker-54", "checker-108",
-            "checker-120", "checker-270", "tube-4x4",   "tube-6x6",    "tube-8x10",  "torus-12x6", "torus-16x6",
-            "dome-3x2",   "dome-5x3",    "dome-6x4",    "sheet-1x1",   "sheet-2x1",  "sheet-4x4"};
+    return {"ball-6",      "ball-12",     "ball-30",   "ball-36",    "ball-48",    "ball-90",    "ball-120",
+            "ball-210",    "ball-270",    "rhombic-6", "rhombic-12", "rhombic-20", "rhombic-30", "polar-3x3",
+            "polar-3x4",   "polar-4x3",   "polar-5x3", "polar-4x4",  "polar-5x4",  "polar-3x7",  "polar-4x6",
+            "polar-5x6",   "polar-5x8",   "polar-6x6", "checker-24", "checker-48", "checker-54", "checker-108",
+            "checker-120", "checker-270", "tube-4x4",  "tube-6x6",   "tube-8x10",  "torus-12x6", "torus-16x6",
+            "dome-3x2",    "dome-5x3",    "dome-6x4",  "sheet-1x1",  "sheet-2x1",  "sheet-4x4"};
 }
 
 Expected<BaseShape> base_shape(std::string_view name, const Element& element)
@@ -212,8 +211,8 @@ Expected<BaseShape> base_shape(std::string_view name, const Element& element)
     Request request{std::string(name)};
     const std::size_t dash = name.find('-');
     const std::string_view prefix = name.substr(0, dash);
-    const auto family = std::find_if(std::begin(families), std::end(families),
-                                     [&](const Family& f) { return f.prefix == prefix; });
+    const auto family =
+        std::find_if(std::begin(families), std::end(families), [&](const Family& f) { return f.prefix == prefix; });
     if (family == std::end(families) || dash == std::string_view::npos ||
         !read_numbers(name.substr(dash + 1), family->two_numbers, request)) {
         return unknown_shape(request.name);

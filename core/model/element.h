@@ -8,10 +8,18 @@
 namespace rhombloom {
 
 //! The two lengths of side; in a surface, the length of the half-edges that leave a vertex (DESIGN.md section 2).
-enum class Side : unsigned char { Short, Long };
+enum class Side : unsigned char
+{
+    Short,
+    Long
+};
 
 //! Front, or turned over (the paper's F/B tag, Sec. 3.1).
-enum class Facing : unsigned char { Front, Back };
+enum class Facing : unsigned char
+{
+    Front,
+    Back
+};
 
 //! Closed interval of angular defects, radians.
 struct DefectRange

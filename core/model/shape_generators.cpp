@@ -248,8 +248,8 @@ SurfaceLists torus(int n, int rows)
     for (int level = 0; level < rows; ++level) {
         const double angle = two_pi * level / rows;
         for (int i = 0; i < n; ++i) {
-            lists.positions.push_back(on_circle(ring + tube_radius * std::cos(angle), (i + 0.5 * level) / n,
-                                                -tube_radius * std::sin(angle)));
+            lists.positions.push_back(
+                on_circle(ring + tube_radius * std::cos(angle), (i + 0.5 * level) / n, -tube_radius * std::sin(angle)));
             level_of.push_back(level);
         }
     }

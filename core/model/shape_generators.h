@@ -21,8 +21,9 @@ SurfaceLists dome(int n, int rows, const Element& element);
 //! \brief \p rows staggered rows of n elements without poles: an open tube with two sawtooth rims.
 SurfaceLists tube(int n, int rows);
 
-//! \brief \p rows staggered rows of n elements, closed both ways; rows = 6, 10, 14, ... so that top and bottom are alike.
-//! \details The outer rows are wide, the inner ones narrow: roundest, with the least stretch, for n about 2 rows.
+//! \brief \p rows staggered rows of n elements, closed both ways; rows = 6, 10, 14, ... so that top and bottom are
+//! alike. \details The outer rows are wide, the inner ones narrow: roundest, with the least stretch, for n about 2
+//! rows.
 SurfaceLists torus(int n, int rows);
 
 //! \brief A flat patch of \p columns x \p rows elements, facings alternating so that every inner vertex is flat.

@@ -29,8 +29,8 @@ Expected<void> check_quad(const SurfaceLists& lists, int f)
     const Quad& q = lists.quads[f];
     for (int i = 0; i < 4; ++i) {
         if (q[i] < 0 || q[i] >= static_cast<int>(lists.positions.size())) {
-            return refuse("element " + std::to_string(f) + " uses vertex " + std::to_string(q[i]) +
-                          ", but there are " + std::to_string(lists.positions.size()) + " vertices");
+            return refuse("element " + std::to_string(f) + " uses vertex " + std::to_string(q[i]) + ", but there are " +
+                          std::to_string(lists.positions.size()) + " vertices");
         }
         for (int j = 0; j < i; ++j) {
             if (q[i] == q[j]) {
@@ -81,8 +81,8 @@ Expected<void> check_fans(const SurfaceLists& lists)
         // Start at the fan's first face where there is a boundary, else anywhere.
         int start = turn[v].begin()->first;
         for (const auto& [out, in] : turn[v]) {
-            const bool entered = std::any_of(turn[v].begin(), turn[v].end(),
-                                             [o = out](const auto& face) { return face.second == o; });
+            const bool entered =
+                std::any_of(turn[v].begin(), turn[v].end(), [o = out](const auto& face) { return face.second == o; });
             if (!entered) {
                 start = out;
             }

@@ -115,10 +115,8 @@ Triangulation sphere_hull(std::vector<Vec3> points)
         }
     }
     const Triangle base = volume(fourth) > 0 ? Triangle{0, 2, 1} : Triangle{0, 1, 2};
-    std::vector<Triangle> hull = {base,
-            {base[1], base[0], fourth},
-            {base[2], base[1], fourth},
-            {base[0], base[2], fourth}};
+    std::vector<Triangle> hull = {
+        base, {base[1], base[0], fourth}, {base[2], base[1], fourth}, {base[0], base[2], fourth}};
     for (int i = 3; i < n; ++i) {
         if (i != fourth) {
             add_to_hull(p, hull, i);

@@ -16,7 +16,12 @@ struct Triangulation
 };
 
 //! The three regular polyhedra with triangular faces.
-enum class Deltahedron { Tetrahedron, Octahedron, Icosahedron };
+enum class Deltahedron
+{
+    Tetrahedron,
+    Octahedron,
+    Icosahedron
+};
 
 //! \brief The geodesic triangulation of type (a, b) on the unit sphere: T = a^2 + ab + b^2 triangles for each face of
 //! the polyhedron (Goldberg, Caspar and Klug). Point 0 is a corner of the polyhedron.

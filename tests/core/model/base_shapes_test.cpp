@@ -41,7 +41,8 @@ int flips(const Surface& surface)
 }
 
 class LibraryShape : public testing::TestWithParam<std::string>
-{};
+{
+};
 
 TEST_P(LibraryShape, IsValidWithTheElementCountOfItsName)
 {
