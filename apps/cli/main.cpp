@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -56,7 +57,7 @@ int run_program(int argc, char** argv)
     app.footer("Example: rhombloom fabricate examples/ball-30.json -o kit\n"
                "`rhombloom COMMAND --help` tells more about each command.");
     cli::Run run;
-    for (const auto add : {cli::add_embed, cli::add_shapes}) {
+    for (const auto add : {cli::add_fabricate, cli::add_check, cli::add_embed, cli::add_shapes, cli::add_plan}) {
         add(app, run);
     }
     if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
@@ -82,6 +83,7 @@ int run_program(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+    std::signal(SIGXFSZ, SIG_IGN); // a file size limit is a write that fails, not a crash
     try {
         return run_program(argc, argv);
     } catch (const std::bad_alloc&) {

@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "apps/cli/commands.h"
+#include "apps/cli/console.h"
+#include "apps/cli/cut_options.h"
+#include "apps/cli/piece_options.h"
+#include "core/text.h"
+#include "exporters/manifest.h"
+
+namespace rhombloom::cli {
+
+namespace {
+
+struct FabricateOptions
+{
+    std::string design;
+    std::string output;
+    std::vector<KitPart> only;
+    KitOptions kit;
+    std::shared_ptr<PieceOptions> piece;
+    std::shared_ptr<CutArguments> cut;
+};
+
+std::string summary(const Kit& kit, const std::string& folder)
+{
+    std::string text = "wrote " + std::to_string(kit.files.size()) + " files to " + folder;
+    if (kit.cut.sheets > 0) {
+        text += ": " + std::to_string(kit.cut.elements + kit.cut.spares) + " elements on " +
+                std::to_string(kit.cut.sheets) + (kit.cut.sheets == 1 ? " sheet" : " sheets") + ", " +
+                to_fixed(kit.cut.cut_length_m, 1) + " m to cut, about " + to_fixed(std::ceil(kit.cut.minutes), 0) +
+                " minutes";
+    }
+    text += ". Start with README.txt.\n";
+    for (const std::string& warning : kit.warnings) {
+        text += "note: " + warning + "\n";
+    }
+    return text;
+}
+
+//! Files of an older kit in the same folder that the new one does not have: a
+//! seventh sheet, say.
+void remove_stale(const std::string& folder, const std::vector<std::string>& old, const FileSet& files)
+{
+    for (const std::string& name : old) {
+        const bool inside = name.find("..") == std::string::npos && !name.starts_with("/");
+        if (inside && !files.contains(name)) {
+            std::error_code ignored;
+            std::filesystem::remove(std::filesystem::path(folder) / name, ignored);
+        }
+    }
+}
+
+Expected<Kit> make(FabricateOptions& options, Progress& progress)
+{
+    const auto design = load_design(options.design);
+    if (!design) {
+        return tl::make_unexpected(design.error());
+    }
+    const auto piece = options.piece->piece(design->element);
+    if (!piece) {
+        return tl::make_unexpected(piece.error());
+    }
+    if (auto ok = apply(*options.cut, options.kit.cut); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    const auto replayed = replay_design(options.design, *design, progress);
+    if (!replayed) {
+        return tl::make_unexpected(replayed.error());
+    }
+    options.kit.progress = [&](const std::string& what) { progress.show(what); };
+    options.kit.program_version = RHOMBLOOM_VERSION;
+    if (!options.only.empty()) {
+        options.kit.parts = {options.only.begin(), options.only.end()};
+    }
+    return make_kit(*design, *replayed, *piece, options.kit);
+}
+
+Expected<int> run_fabricate(FabricateOptions& options)
+{
+    Progress progress;
+    const auto kit = make(options, progress);
+    if (!kit) {
+        return tl::make_unexpected(kit.error());
+    }
+    constexpr std::size_t max_manifest = 10'000'000;
+    const auto old = load_file((std::filesystem::path(options.output) / "kit.json").string(), max_manifest);
+    if (auto ok = save_folder(options.output, kit->files); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    if (old && options.only.empty()) {
+        remove_stale(options.output, listed_files(*old), kit->files);
+    }
+    return print(summary(*kit, options.output)).map([] { return 0; });
+}
+
+template <class T>
+CLI::CheckedTransformer names(const std::map<std::string, T>& values)
+{
+    return CLI::CheckedTransformer(values, CLI::ignore_case);
+}
+
+} // namespace
+
+void add_fabricate(CLI::App& app, Run& run)
+{
+    auto options = std::make_shared<FabricateOptions>();
+    auto* command = app.add_subcommand("fabricate", "The main job: make the whole kit from a design.");
+    command->footer("Example: rhombloom fabricate examples/ball-30.json -o kit "
+                    "--machine glowforge --kerf 0.2");
+    command->add_option("DESIGN", options->design, "design file")->required();
+    command->add_option("-o,--output", options->output, "folder of the kit; made when it is missing")->required();
+    command->add_option("--only", options->only, "only these parts: cut,booklet,preview,hooks")
+        ->delimiter(',')
+        ->transform(names<KitPart>({{"cut", KitPart::Cut},
+                                    {"booklet", KitPart::Booklet},
+                                    {"preview", KitPart::Preview},
+                                    {"hooks", KitPart::Hooks}}));
+    command->add_option("--paper", options->kit.paper, "of booklet and template: a4 (default) or letter")
+        ->transform(names<Paper>({{"a4", Paper::A4}, {"letter", Paper::Letter}}));
+    command->add_option("--order", options->kit.order, "of assembly: best (default) or paper")
+        ->transform(names<Order>({{"best", Order::Best}, {"paper", Order::Paper}}));
+    command->add_flag_callback(
+        "--lamp", [options] { options->kit.lamp = LampLook::On; }, "show it lit in the preview");
+    options->piece = add_piece_options(*command);
+    options->cut = add_cut_options(*command);
+    command->callback([&run, options] { run = [options] { return run_fabricate(*options); }; });
+}
+
+} // namespace rhombloom::cli

@@ -1,0 +1,54 @@
+#include "apps/cli/piece_options.h"
+
+#include "core/text.h"
+
+namespace rhombloom::cli {
+
+namespace {
+
+//! The element comes from the design file.
+bool is_option(const Parameter& parameter)
+{
+    return parameter.section != "Element";
+}
+
+} // namespace
+
+std::shared_ptr<PieceOptions> add_piece_options(CLI::App& command)
+{
+    auto options = std::make_shared<PieceOptions>();
+    const auto& table = parameter_table();
+    options->values.resize(table.size());
+    options->set.resize(table.size(), nullptr);
+    options->material_set =
+        command.add_option("--material", options->material, "what is cut, e.g. pp-0.5 (default: by the thickness)");
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        if (is_option(table[i])) {
+            options->set[i] =
+                command
+                    .add_option(option_name(table[i]), options->values[i],
+                                table[i].help + " (" + to_text(table[i].min) + " to " + to_text(table[i].max) + " " +
+                                    table[i].unit + ", default: " + to_text(table[i].rule) + ")")
+                    ->group(table[i].section);
+        }
+    }
+    return options;
+}
+
+std::vector<ParameterSetting> PieceOptions::settings() const
+{
+    std::vector<ParameterSetting> result;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        if (set[i] != nullptr && set[i]->count() > 0) {
+            result.emplace_back(parameter_table()[i].name, values[i]);
+        }
+    }
+    return result;
+}
+
+Expected<Piece> PieceOptions::piece(const Element& element) const
+{
+    return make_piece(element, material_set->count() > 0 ? std::optional(material) : std::nullopt, settings());
+}
+
+} // namespace rhombloom::cli

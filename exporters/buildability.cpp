@@ -1,0 +1,125 @@
+#include "exporters/buildability.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/model/angular_defect.h"
+#include "core/model/validity.h"
+#include "core/text.h"
+
+namespace rhombloom {
+
+namespace {
+
+constexpr double stretch_limit = 0.01; // a sheet gives a little; beyond, hooks jump out or the sheet tears
+constexpr double defect_margin = radians(10);
+
+//! The preset of polypropylene, the classic of these lamps, nearest in
+//! thickness.
+Expected<Material> nearest_polypropylene(double thickness)
+{
+    auto presets = materials();
+    if (!presets) {
+        return tl::make_unexpected(presets.error());
+    }
+    const Material* best = nullptr;
+    for (const Material& m : *presets) {
+        const bool nearer =
+            best == nullptr || std::abs(m.thickness - thickness) < std::abs(best->thickness - thickness);
+        if (m.name.starts_with("pp-") && nearer) {
+            best = &m;
+        }
+    }
+    if (best == nullptr) {
+        return machine_failure("the material presets have no polypropylene: the "
+                               "installation is damaged");
+    }
+    Material chosen = *best;
+    if (chosen.thickness != thickness) {
+        chosen.title = "Polypropylene " + to_fixed(thickness, 2) + " mm";
+        chosen.thickness = thickness;
+    }
+    return chosen;
+}
+
+void judge_embedding(Buildability& report)
+{
+    const EmbedReport& e = report.embedding;
+    if (!e.converged) {
+        report.problems.push_back("the shape did not come to rest (largest gradient " + to_text(e.gradient_norm) +
+                                  "): " + e.message);
+    }
+    if (e.max_stretch > stretch_limit) {
+        report.problems.push_back("an element would have to stretch by " + to_fixed(100 * e.max_stretch, 2) +
+                                  " %, possible is " + to_fixed(100 * stretch_limit, 0) +
+                                  " %: ease the tightest limb or junction");
+    }
+}
+
+void judge_defects(Buildability& report, const Surface& surface, const Element& element)
+{
+    const DefectRange limits = permissible_defect(element);
+    int tight = 0;
+    for (const Vertex v : surface.vertices()) {
+        if (!surface.is_boundary(v) && angular_defect(surface, element, v) < limits.min + defect_margin) {
+            ++tight;
+        }
+    }
+    if (tight > 0) {
+        report.warnings.push_back(std::to_string(tight) + " vertices are within 10 degrees of the most "
+                                                          "elements that fit: hard to hook");
+    }
+}
+
+} // namespace
+
+Expected<Piece> make_piece(const Element& element, const std::optional<std::string>& material_name,
+                           const std::vector<ParameterSetting>& settings)
+{
+    Piece piece;
+    piece.element = element;
+    auto chosen = material_name ? material(*material_name) : nearest_polypropylene(element.thickness);
+    if (!chosen) {
+        return tl::make_unexpected(chosen.error());
+    }
+    piece.material = std::move(*chosen);
+    if (piece.material.thickness != element.thickness) {
+        piece.notes.push_back("cut for " + piece.material.title + ": its " + to_fixed(piece.material.thickness, 2) +
+                              " mm replace the design's " + to_fixed(element.thickness, 2) + " mm");
+        piece.element.thickness = piece.material.thickness;
+    }
+    auto parameters = piece_parameters(piece.element, settings);
+    if (!parameters) {
+        return tl::make_unexpected(parameters.error());
+    }
+    piece.parameters = *parameters;
+    return piece;
+}
+
+Buildability buildability(const Replay& replay, const Piece& piece)
+{
+    Buildability report;
+    const Surface& surface = replay.surface;
+    const Validity validity = validate(surface, piece.element);
+    report.elements = static_cast<int>(surface.n_faces());
+    for (const Face f : surface.faces()) {
+        report.flipped += surface.data(f).facing == Facing::Back ? 1 : 0;
+    }
+    report.boundary_loops = validity.boundary_loops;
+    report.euler_characteristic = validity.euler_characteristic;
+    report.defects = defect_range(surface, piece.element);
+    report.embedding = replay.embedding;
+    report.problems = validity.problems;
+    judge_embedding(report);
+    judge_defects(report, surface, piece.element);
+    report.hooks = hook_checks(piece.parameters.hook, {piece.parameters.kerf, piece.material.strain_limit});
+    for (const HookCheck& check : report.hooks) {
+        if (!check.ok) {
+            report.problems.push_back(check.id + ": " + check.sentence);
+        }
+    }
+    report.warnings.insert(report.warnings.end(), piece.notes.begin(), piece.notes.end());
+    return report;
+}
+
+} // namespace rhombloom
