@@ -1,5 +1,8 @@
 #include "exporters/kit.h"
 
+#include <future>
+#include <mutex>
+
 #include "exporters/booklet.h"
 #include "exporters/manifest.h"
 #include "exporters/preview.h"
@@ -15,8 +18,11 @@ void add(FileSet& files, FileSet more)
     files.merge(std::move(more));
 }
 
+//! Tells what is being made, from whichever thread makes it.
 void tell(const KitOptions& options, const std::string& what)
 {
+    static std::mutex one_at_a_time;
+    const std::scoped_lock lock(one_at_a_time);
     if (options.progress) {
         options.progress(what);
     }
@@ -47,8 +53,8 @@ Expected<void> add_cut(Kit& kit, const Piece& piece, const KitOptions& options)
     return {};
 }
 
-Expected<void> add_booklet(Kit& kit, const Design& design, const Replay& replay, AssemblyPlan& plan, const Piece& piece,
-                           const KitOptions& options)
+Expected<void> add_booklet(Kit& kit, const Design& design, const Replay& replay, const AssemblyPlan& plan,
+                           const Piece& piece, const KitOptions& options)
 {
     tell(options, "booklet");
     BookletOptions booklet;
@@ -90,15 +96,41 @@ Expected<void> add_hooks(Kit& kit, const Design& design, const Piece& piece, con
     return {};
 }
 
-Expected<void> add_parts(Kit& kit, const Design& design, const Replay& replay, AssemblyPlan& plan, const Piece& piece,
-                         const KitOptions& options)
+//! What a maker needs at the table: sheets, then the booklet, whose cover names them.
+Expected<void> add_paper(Kit& kit, const Design& design, const Replay& replay, const AssemblyPlan& plan,
+                         const Piece& piece, const KitOptions& options)
 {
-    const auto wanted = [&](KitPart part) { return options.parts.contains(part); };
-    Expected<void> ok;
-    ok = wanted(KitPart::Cut) ? add_cut(kit, piece, options) : ok;
-    ok = ok && wanted(KitPart::Booklet) ? add_booklet(kit, design, replay, plan, piece, options) : ok;
-    ok = ok && wanted(KitPart::Preview) ? add_preview(kit, design, replay, plan, piece, options) : ok;
-    return ok && wanted(KitPart::Hooks) ? add_hooks(kit, design, piece, options) : ok;
+    if (options.parts.contains(KitPart::Cut)) {
+        if (auto ok = add_cut(kit, piece, options); !ok) {
+            return ok;
+        }
+    }
+    return options.parts.contains(KitPart::Booklet) ? add_booklet(kit, design, replay, plan, piece, options)
+                                                    : Expected<void>{};
+}
+
+Expected<void> add_models(Kit& kit, const Design& design, const Replay& replay, const AssemblyPlan& plan,
+                          const Piece& piece, const KitOptions& options)
+{
+    if (options.parts.contains(KitPart::Preview)) {
+        if (auto ok = add_preview(kit, design, replay, plan, piece, options); !ok) {
+            return ok;
+        }
+    }
+    return options.parts.contains(KitPart::Hooks) ? add_hooks(kit, design, piece, options) : Expected<void>{};
+}
+
+//! Paper and models know nothing of each other: each on its own thread, into its own kit, then put together.
+Expected<void> add_parts(Kit& kit, const Design& design, const Replay& replay, const AssemblyPlan& plan,
+                         const Piece& piece, const KitOptions& options)
+{
+    Kit models;
+    auto models_made =
+        std::async(std::launch::async, [&] { return add_models(models, design, replay, plan, piece, options); });
+    const auto paper_made = add_paper(kit, design, replay, plan, piece, options);
+    const auto models_ok = models_made.get();
+    add(kit.files, std::move(models.files));
+    return paper_made ? models_ok : paper_made;
 }
 
 } // namespace
@@ -112,7 +144,7 @@ Expected<Kit> make_kit(const Design& design, const Replay& replay, const Piece& 
     Kit kit;
     kit.warnings = build.warnings;
     tell(options, "assembly plan");
-    AssemblyPlan plan = assembly_plan(replay, piece.element, options.order);
+    const AssemblyPlan plan = assembly_plan(replay, piece.element, options.order);
     kit.scorecard = plan.scorecard;
     kit.files["surface.json"] = surface_json(replay.surface, piece.element, replay.embedding);
     if (auto ok = add_parts(kit, design, replay, plan, piece, options); !ok) {
