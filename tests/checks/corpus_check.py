@@ -1,0 +1,104 @@
+"""Bad input gets one sentence on stderr that names the place, the right exit code, and nothing half-written."""
+import os
+import pathlib
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+
+program, source = sys.argv[1], pathlib.Path(sys.argv[2])
+work = pathlib.Path(tempfile.mkdtemp(prefix="rhombloom-corpus-"))
+problems = []
+checked = 0
+
+
+def run(arguments, limit_bytes=None):
+    def limits():
+        if limit_bytes is not None:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit_bytes, limit_bytes))
+    return subprocess.run([program, *map(str, arguments)], capture_output=True, timeout=120, preexec_fn=limits)
+
+
+def expect(name, result, exit_code, words):
+    global checked
+    checked += 1
+    text = result.stderr.decode("utf-8", "replace")
+    if result.returncode != exit_code:
+        problems.append(f"{name}: exit {result.returncode} instead of {exit_code}: {text[:300]}")
+    if len(text.strip().splitlines()) != 1 or len(text) > 700:
+        problems.append(f"{name}: not one short sentence but {text[:300]!r}")
+    if words not in text:
+        problems.append(f"{name}: {text.strip()!r} does not name {words!r}")
+    if any(ord(c) < 32 and c != "\n" for c in text):
+        problems.append(f"{name}: control characters reach the terminal")
+
+
+def expect_nothing_in(folder, name):
+    left = [str(p) for p in folder.rglob("*")] if folder.exists() else []
+    if left:
+        problems.append(f"{name}: left behind {left[:3]}")
+
+
+commands = {
+    "fabricate": lambda design, out: ["fabricate", design, "-o", out],
+    "check": lambda design, out: ["check", design],
+    "embed": lambda design, out: ["embed", design, "-o", out / "x.json"],
+    "plan": lambda design, out: ["plan", design],
+}
+
+cases = []
+for line in (source / "tests/corpus/expected.txt").read_text().splitlines():
+    if not line.startswith("#"):
+        cases.append(line.split(": ", 1))
+for number, (name, words) in enumerate(cases):
+    design = source / "tests/corpus" / name
+    # Every file goes through fabricate; the other commands read designs the same way and take turns.
+    for command in ["fabricate", list(commands)[1 + number % (len(commands) - 1)]]:
+        out = work / "out"
+        expect(f"{command} {name}", run(commands[command](design, out)), 1, words)
+        expect_nothing_in(out, f"{command} {name}")
+
+# Larger than a repository should carry.
+brackets = work / "brackets.json"
+with open(brackets, "wb") as file:
+    for _ in range(200):
+        file.write(b"[" * 1_000_000)
+expect("200 MB of brackets", run(["check", brackets]), 1, "brackets.json")
+brackets.unlink()
+(work / "nested.json").write_text("[" * 3_000_000)
+expect("3 MB of brackets", run(["check", work / "nested.json"]), 1, "nested")
+
+good = source / "examples/ball-30.json"
+expect("missing file", run(["fabricate", work / "none.json", "-o", work / "out"]), 1, "does not exist")
+expect("folder for a file", run(["fabricate", work, "-o", work / "out"]), 1, "is a folder")
+expect("empty file name", run(["check", ""]), 1, "does not exist")
+expect("unknown ending", run(["embed", good, "-o", work / "x.xyz"]), 1, ".obj")
+(work / "folder.json").mkdir()
+expect("folder named as the target", run(["embed", good, "-o", work / "folder.json"]), 3, "folder")
+expect("target in a missing folder", run(["embed", good, "-o", work / "none/x.json"]), 3, "cannot write")
+(work / "file").write_text("keep me")
+expect("file where the kit should be", run(["fabricate", good, "-o", work / "file"]), 3, "file of that name")
+if (work / "file").read_text() != "keep me":
+    problems.append("fabricate destroyed the file in its way")
+expect("unwritable target", run(["fabricate", good, "-o", "/proc/kit"]), 3, "/proc/kit")
+
+# A disk that is full after a few kilobytes: nothing new, and the old kit untouched.
+out = work / "full"
+expect("full disk", run(["fabricate", good, "-o", out], limit_bytes=2000), 3, "cannot write")
+expect_nothing_in(out, "full disk")
+if os.path.exists("/dev/full"):
+    with open("/dev/full", "wb") as full:
+        result = subprocess.run([program, "shapes"], stdout=full, stderr=subprocess.PIPE)
+    expect("full standard output", result, 3, "standard output")
+
+for arguments, words in [([], "subcommand"), (["bogus"], "bogus"), (["fabricate"], "DESIGN"),
+                         (["fabricate", good], "--output"), (["check", good, "--bogus"], "--bogus"),
+                         (["fabricate", good, "-o", work / "out", "--paper", "a5"], "a5"),
+                         (["plan", good, "--order", "worst"], "worst")]:
+    expect(f"usage {arguments}", run(arguments), 2, words)
+expect_nothing_in(work / "out", "wrong usage")
+
+shutil.rmtree(work)
+print("\n".join(problems) or f"{checked} bad inputs refused as they should be")
+sys.exit(1 if problems else 0)
