@@ -95,7 +95,7 @@ Expected<BookletFiles> booklet_files(const Design& design, const Replay& replay,
                                      const BookletOptions& options)
 {
     const BookletLayout layout = booklet_layout(replay, plan, options);
-    const BookletSources sources{replay, design.element, plan, layout};
+    const BookletSources sources{replay, design.element, plan, layout, piece_contour(design.element)};
     PdfCanvas canvas(layout.paper.width, layout.paper.height, font_file);
     Writer writer{canvas, sources, options, booklet_title(design, options)};
     writer.all();

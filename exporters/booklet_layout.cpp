@@ -173,6 +173,7 @@ BookletLayout booklet_layout(const Replay& replay, const AssemblyPlan& plan, con
         choose_grid(replay, plan, options, layout.paper, chapter, layout.places);
         page = layout.places[chapter.first + chapter.count - 1].page;
     }
+    place_insets(replay, plan, layout.places);
     layout.last_page = page + 1;
     return layout;
 }

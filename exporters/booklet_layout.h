@@ -5,6 +5,14 @@
 
 namespace rhombloom {
 
+//! A magnified detail in a corner of a figure: the next element and what it is hooked to, with the real hooks.
+struct Inset
+{
+    Vec2 centre = Vec2::Zero(); //!< on the page
+    double radius = 0;          //!< points
+    Camera camera;              //!< the figure's, nearer and looking at the element
+};
+
 //! Where a step stands in the booklet and how it is seen.
 struct StepPlace
 {
@@ -16,6 +24,7 @@ struct StepPlace
     Camera camera;
     int view = 0; //!< index into viewpoints()
     Turn turn;    //!< from the step before
+    std::optional<Inset> inset;
 };
 
 //! Steps of one component in a row: a chapter with its own title page.
@@ -42,6 +51,11 @@ inline constexpr double page_margin = 40; //!< points
 inline constexpr int front_pages = 4;     //!< cover, how to read, parts, joint
 
 BookletLayout booklet_layout(const Replay& replay, const AssemblyPlan& plan, const BookletOptions& options);
+
+//! \brief Decide which steps need a magnified detail, and place it in the corner farthest from the element.
+//! \details Wanted when less than 60 mm2 of the element can be seen or it is seen narrower than 6 mm, and in the first
+//! steps, where the joint is new to the reader.
+void place_insets(const Replay& replay, const AssemblyPlan& plan, std::vector<StepPlace>& places);
 
 //! \brief The faces that some step in \p stage shows: the part of that stage's surface that is under construction.
 std::vector<Face> shown_faces(const Replay& replay, const AssemblyPlan& plan, int stage);

@@ -227,7 +227,13 @@ void StepDrawer::draw(int k)
     const Box& box = s.place(k).box;
     s.canvas.outline({box.min, {box.max.x(), box.min.y()}, box.max, {box.min.x(), box.max.y()}}, {0.6, 0xB0B0B0, 0});
     s.draw_words(k);
-    s.canvas.figure(step_words(s.sources, k, s.names), [&] { s.draw_picture(k); });
+    s.canvas.figure(step_words(s.sources, k, s.names), [&] {
+        s.draw_picture(k);
+        if (s.place(k).inset) {
+            ++s.insets;
+            draw_inset(s.canvas, s.sources, k, s.face, s.present, s.names);
+        }
+    });
     s.present[step.element] = step.kind != StepKind::Remove;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "exporters/booklet_layout.h"
+#include "exporters/figure_hooks.h"
 
 namespace rhombloom {
 
@@ -11,6 +12,7 @@ struct BookletSources
     const Element& element;
     const AssemblyPlan& plan;
     const BookletLayout& layout;
+    PieceContour contour; //!< of the element with its hooks
 };
 
 //! \brief Draws the steps of a booklet, in their order; each once.
@@ -32,6 +34,11 @@ private:
     struct State;
     std::unique_ptr<State> state_;
 };
+
+//! \brief The magnified detail of step \p k: built elements near the step's element with their hooks.
+//! \param face of each element in the step's stage  \param present which elements are there, the step's aside
+void draw_inset(PdfCanvas& canvas, const BookletSources& sources, int k, const std::vector<int>& face,
+                const std::vector<char>& present, const std::vector<int>& names);
 
 //! \brief What to do in step \p k, in words: which sides go where. Elements are called by the step that put them in.
 std::string step_words(const BookletSources& sources, int k, const std::vector<int>& names);

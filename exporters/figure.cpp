@@ -32,31 +32,8 @@ unsigned mixed(unsigned a, unsigned b, double share)
 double shade(const Scene& scene, const Vec3& normal)
 {
     const Viewpoint& eye = scene.camera.view;
-    const Vec3 light = (0.7 * eye.toward + 0.6 * eye.up - 0.4 * eye.right).normalized();
-    return std::round(8 * std::clamp(0.5 + 0.5 * normal.dot(light), 0.0, 1.0)) / 8;
-}
-
-bool from_outside(const Scene& scene, Face f)
-{
-    return element_normal(*scene.surface, f).dot(scene.camera.view.toward) > 0;
-}
-
-unsigned tint(const Scene& scene, Face f, Paint paint)
-{
-    if (paint == Paint::Next) {
-        return colour::next;
-    }
-    if (paint == Paint::Ghost || paint == Paint::Removed) {
-        return colour::ghost;
-    }
-    if (!from_outside(scene, f)) {
-        return colour::inside;
-    }
-    const double light = shade(scene, element_normal(*scene.surface, f));
-    if (paint == Paint::Chapter) {
-        return mixed(0xE8C08A, 0xF8E3C4, light);
-    }
-    return mixed(colour::built_dark, colour::built_light, light);
+    const Vec3 light = (0.5 * eye.toward + 0.6 * eye.up - 0.6 * eye.right).normalized();
+    return std::round(10 * std::clamp(0.3 + 0.7 * normal.dot(light), 0.0, 1.0)) / 10;
 }
 
 Line edge_line(Paint paint)
@@ -162,6 +139,36 @@ std::vector<Face> near_on_paper(const Scene& scene, Face f, const std::vector<Fa
 
 } // namespace
 
+bool from_outside(const Scene& scene, Face f)
+{
+    return element_normal(*scene.surface, f).dot(scene.camera.view.toward) > 0;
+}
+
+unsigned element_tint(const Scene& scene, Face f, Paint paint)
+{
+    if (paint == Paint::Next) {
+        return colour::next;
+    }
+    if (paint == Paint::Ghost || paint == Paint::Removed) {
+        return colour::ghost;
+    }
+    if (!from_outside(scene, f)) {
+        return colour::inside;
+    }
+    const double light = shade(scene, element_normal(*scene.surface, f));
+    if (paint == Paint::Chapter) {
+        return mixed(0xE8C08A, 0xF8E3C4, light);
+    }
+    return mixed(colour::built_dark, colour::built_light, light);
+}
+
+void draw_flip_dots(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint)
+{
+    if (flipped(scene, f) && (paint == Paint::Next || from_outside(scene, f))) {
+        draw_dots(canvas, outline_of(scene, f), paint == Paint::Next ? 0xFFFFFF : colour::dot);
+    }
+}
+
 Polygon outline_of(const Scene& scene, Face f)
 {
     Polygon p;
@@ -196,13 +203,13 @@ double seen_part(const Scene& scene, Face f, const std::vector<Face>& others)
 void draw_element(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint)
 {
     const Polygon p = outline_of(scene, f);
-    canvas.fill_and_outline(p, tint(scene, f, paint), edge_line(paint));
+    canvas.fill_and_outline(p, element_tint(scene, f, paint), edge_line(paint));
     if (paint == Paint::Removed) {
         const Line cross_line{1.4, 0x000000, 0};
         canvas.stroke({at(p, 0.25, 0.25), at(p, 0.75, 0.75)}, cross_line);
         canvas.stroke({at(p, 0.75, 0.25), at(p, 0.25, 0.75)}, cross_line);
-    } else if (paint != Paint::Ghost && flipped(scene, f) && (paint == Paint::Next || from_outside(scene, f))) {
-        draw_dots(canvas, p, paint == Paint::Next ? 0xFFFFFF : colour::dot);
+    } else if (paint != Paint::Ghost) {
+        draw_flip_dots(canvas, scene, f, paint);
     }
 }
 
@@ -247,9 +254,13 @@ void draw_arrow(PdfCanvas& canvas, const Scene& scene, Face f, const std::vector
         from = Vec2(normal.dot(scene.camera.view.right), -normal.dot(scene.camera.view.up)) + Vec2(0.25, -0.35);
     }
     from.normalize();
-    const double length = std::clamp(0.9 * size, 16.0, 34.0);
-    const Vec2 tip = middle(p) + from * (0.12 * size);
-    const Vec2 tail = tip + from * length;
+    double reach = 0; // how far the element itself extends that way
+    for (const Vec2& corner : p) {
+        reach = std::max(reach, (corner - middle(p)).dot(from));
+    }
+    const double length = std::clamp(0.8 * size, 14.0, 26.0);
+    const Vec2 tip = middle(p) + from * (0.45 * reach);
+    const Vec2 tail = tip + from * (length + 0.3 * reach);
     const Vec2 point = away > 0 ? tip : tail;
     const Vec2 back = (away > 0 ? from : Vec2(-from)) * 6.5;
     const Vec2 across(-back.y() * 0.55, back.x() * 0.55);

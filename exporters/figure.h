@@ -50,6 +50,15 @@ enum class Paint
 //! \brief One element: tinted by its slope and by which face is seen, dotted when it is flipped.
 void draw_element(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint);
 
+//! \brief The fill of an element: by its slope, or its side when seen from inside, or what is done with it.
+unsigned element_tint(const Scene& scene, Face f, Paint paint);
+
+//! \brief The dots of a flipped element; nothing for others and for those seen from inside.
+void draw_flip_dots(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint);
+
+//! \brief Is the element seen from outside?
+bool from_outside(const Scene& scene, Face f);
+
 //! \brief Area of a polygon, unsigned, in the square of its unit.
 double polygon_area(const Polygon& polygon);
 

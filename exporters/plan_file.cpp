@@ -123,9 +123,37 @@ Json temporary(const Replay& replay, const AssemblyPlan& plan)
     return list;
 }
 
+Json inset(const std::optional<Inset>& inset, double page_height)
+{
+    if (!inset) {
+        return nullptr;
+    }
+    return {{"centre_pt", {rounded(inset->centre.x(), 1e-3), rounded(page_height - inset->centre.y(), 1e-3)}},
+            {"radius_pt", rounded(inset->radius, 1e-3)},
+            {"view", matrix(page_matrix(inset->camera, inset->centre, page_height))}};
+}
+
 Json turn(const Turn& t)
 {
     return {{"round_deg", t.round}, {"tilt_deg", t.tilt}};
+}
+
+//! One line for each entry of the document, and for each member of its lists.
+std::string lines(const Json& document)
+{
+    std::string text = "{";
+    for (const auto& [key, value] : document.items()) {
+        text += (text.size() > 1 ? ",\n" : "\n") + Json(key).dump() + ": ";
+        if (!value.is_array() || value.empty() || value.front().is_number()) {
+            text += value.dump();
+            continue;
+        }
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            text += (i == 0 ? "[\n  " : ",\n  ") + value[i].dump();
+        }
+        text += "]";
+    }
+    return text + "}\n";
 }
 
 } // namespace
@@ -153,12 +181,13 @@ std::string plan_json(const Replay& replay, const Element&, const AssemblyPlan& 
                                      {"page", place.page},
                                      {"cell", place.cell},
                                      {"view", matrix(page_matrix(place.camera, place.centre, layout.paper.height))},
-                                     {"turn", turn(place.turn)}});
+                                     {"turn", turn(place.turn)},
+                                     {"inset", inset(place.inset, layout.paper.height)}});
     }
     for (const int stage : stages) {
         document["shapes"].push_back(shape(replay, plan, stage));
     }
-    return document.dump(1) + "\n";
+    return lines(document);
 }
 
 } // namespace rhombloom

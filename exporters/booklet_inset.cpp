@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <cmath>
+
+#include "exporters/booklet_steps.h"
+#include "exporters/figure_hooks.h"
+
+namespace rhombloom {
+
+namespace {
+
+constexpr double mm2_per_pt2 = (25.4 / 72) * (25.4 / 72);
+constexpr double enough_area = 60;  // mm2
+constexpr double enough_width = 17; // points, about 6 mm
+constexpr int first_steps = 6;
+
+//! The shortest distance between opposite sides, roughly: area over the longest diagonal.
+double narrowness(const Polygon& p)
+{
+    return 2 * polygon_area(p) / std::max({(p[2] - p[0]).norm(), (p[3] - p[1]).norm(), 1e-9});
+}
+
+double reach_of(const Polygon& p)
+{
+    const Vec2 middle = (p[0] + p[1] + p[2] + p[3]) / 4;
+    double reach = 1e-9;
+    for (const Vec2& corner : p) {
+        reach = std::max(reach, (corner - middle).norm());
+    }
+    return reach;
+}
+
+//! The corner of the figure that is farthest from the element.
+Vec2 free_corner(const StepPlace& place, const Vec2& at, double radius)
+{
+    const double edge = radius + 5;
+    double farthest = -1;
+    Vec2 best = Vec2::Zero();
+    for (const double x : {place.box.max.x() - edge, place.box.min.x() + edge}) {
+        for (const double y : {place.box.max.y() - edge, place.centre.y() - place.half.y() + radius - 6}) {
+            if ((Vec2(x, y) - at).norm() > farthest + 1) {
+                farthest = (Vec2(x, y) - at).norm();
+                best = Vec2(x, y);
+            }
+        }
+    }
+    return best;
+}
+
+Inset inset_at(const StepPlace& place, const Vec3& look_at, double extent)
+{
+    const double width = place.box.max.x() - place.box.min.x();
+    Inset inset;
+    inset.radius = std::clamp(0.185 * std::min(width, 1.1 * (place.box.max.y() - place.box.min.y())), 30.0, 60.0);
+    inset.centre = free_corner(place, place.centre + project(place.camera, look_at), inset.radius);
+    inset.camera = place.camera;
+    inset.camera.look_at = look_at;
+    inset.camera.scale *= inset.radius / extent;
+    return inset;
+}
+
+bool hard_to_see(const Scene& scene, Face f, const std::vector<Face>& others)
+{
+    const Polygon p = outline_of(scene, f);
+    return narrowness(p) < enough_width || polygon_area(p) * mm2_per_pt2 * seen_part(scene, f, others) < enough_area;
+}
+
+//! The whole element when it is small in the figure; in the first steps, one joint.
+std::optional<Inset> inset_for(int k, const Step& step, const StepPlace& place, const Scene& scene, Face f,
+                               const std::vector<Face>& others)
+{
+    const Polygon p = outline_of(scene, f);
+    if (hard_to_see(scene, f, others)) {
+        return inset_at(place, element_centre(*scene.surface, f), 1.5 * reach_of(p));
+    }
+    if (k >= first_steps || step.joins.empty()) {
+        return {};
+    }
+    const int side = step.joins.front().side;
+    const Quad q = quad(*scene.surface, f);
+    const Vec3 middle = (scene.surface->point(Vertex(q[side])) + scene.surface->point(Vertex(q[(side + 1) % 4]))) / 2;
+    return inset_at(place, middle, 0.58 * (p[(side + 1) % 4] - p[side]).norm());
+}
+
+} // namespace
+
+void place_insets(const Replay& replay, const AssemblyPlan& plan, std::vector<StepPlace>& places)
+{
+    std::vector<char> present(replay.surface.n_faces() + plan.temporary.size(), 0);
+    std::vector<int> face;
+    for (int k = 0; k < static_cast<int>(plan.steps.size()); ++k) {
+        const Step& step = plan.steps[k];
+        if (k == 0 || plan.steps[k - 1].stage != step.stage) {
+            face = faces_of_elements(replay, plan, step.stage);
+        }
+        std::vector<Face> others;
+        for (std::size_t e = 0; e < present.size(); ++e) {
+            if (present[e] && static_cast<int>(e) != step.element && face[e] >= 0) {
+                others.emplace_back(face[e]);
+            }
+        }
+        const Scene scene{&stage_surface(replay, step.stage), places[k].camera};
+        const Face f(face[step.element]);
+        places[k].inset = inset_for(k, step, places[k], scene, f, others);
+        present[step.element] = step.kind != StepKind::Remove;
+    }
+}
+
+namespace {
+
+//! What an inset shows, back to front: pieces near the element, with their hooks, over plain elements behind it.
+struct Detail
+{
+    std::vector<Face> behind;
+    std::vector<Piece> pieces;
+};
+
+Detail detail(const Scene& scene, Face own, Paint paint, double radius, const std::vector<Face>& built)
+{
+    const std::vector<Face> round = faces_round(*scene.surface, own);
+    std::vector<Face> shown = {own};
+    for (const Face f : built) {
+        const Polygon p = outline_of(scene, f);
+        const bool inside = ((p[0] + p[2]) / 2).norm() < radius + reach_of(p);
+        if (inside) {
+            shown.push_back(f);
+        }
+    }
+    Detail result;
+    bool own_drawn = false;
+    for (const Face f : painter_order(scene, shown)) {
+        const bool near = std::find(round.begin(), round.end(), f) != round.end();
+        if (f == own) {
+            own_drawn = true;
+            result.pieces.push_back({f, paint});
+        } else if (near && from_outside(scene, f)) {
+            result.pieces.push_back({f, Paint::Built});
+        } else if (!own_drawn) { // what lies in front would hide what the detail is there to show
+            result.behind.push_back(f);
+        }
+    }
+    return result;
+}
+
+//! From the ring round the element in the figure to the detail.
+void draw_leader(PdfCanvas& canvas, const Inset& inset, const Vec2& at, double ring)
+{
+    const Line line{0.8, 0x404040, 0};
+    const Vec2 way = inset.centre - at;
+    const double length = way.norm();
+    if (length > ring + inset.radius) {
+        canvas.stroke({at + way * (ring / length), inset.centre - way * (inset.radius / length)}, line);
+    }
+    canvas.arc(at, ring, 0, two_pi, line);
+}
+
+} // namespace
+
+void draw_inset(PdfCanvas& canvas, const BookletSources& sources, int k, const std::vector<int>& face,
+                const std::vector<char>& present, const std::vector<int>& names)
+{
+    const Step& step = sources.plan.steps[k];
+    const StepPlace& place = sources.layout.places[k];
+    const Inset& inset = *place.inset;
+    const Scene scene{&stage_surface(sources.replay, step.stage), inset.camera};
+    const Face own(face[step.element]);
+    std::vector<Face> built;
+    for (std::size_t e = 0; e < present.size(); ++e) {
+        if (present[e] && static_cast<int>(e) != step.element && face[e] >= 0) {
+            built.emplace_back(face[e]);
+        }
+    }
+    const Paint paint = step.kind == StepKind::Remove ? Paint::Removed : Paint::Next;
+    const Detail shown = detail(scene, own, paint, inset.radius, built);
+    draw_leader(canvas, inset, place.centre + project(place.camera, inset.camera.look_at),
+                inset.radius * place.camera.scale / inset.camera.scale);
+    canvas.disc(inset.centre, inset.radius, 0xFFFFFF, {0.8, 0x404040, 0});
+    canvas.clipped_to_disc(inset.centre, inset.radius - 0.4, [&] {
+        canvas.shifted(inset.centre, [&] {
+            for (const Face f : shown.behind) {
+                draw_element(canvas, scene, f, Paint::Built);
+            }
+            draw_pieces(canvas, scene, shown.pieces, sources.contour);
+            for (const Join& join : step.joins) {
+                const Vec2 at = project(scene.camera, element_centre(*scene.surface, Face(face[join.to])));
+                const Vec2 inward = at * std::min(1.0, (inset.radius - 9) / std::max(1e-9, at.norm()));
+                canvas.text(std::to_string(names[join.to]), inward + Vec2(0, 2.6),
+                            {7.5, 0x000000, Align::Centre, 0xFFFFFF});
+            }
+        });
+    });
+}
+
+} // namespace rhombloom

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "exporters/figure.h"
+
+namespace rhombloom {
+
+//! \brief The flat piece in coordinates of its nodes: (0, 0) is v0, (1, 0) v1, (1, 1) v2, (0, 1) v3, so that it can be
+//! laid over any bent element.
+struct PieceContour
+{
+    std::vector<Vec2> outline;                           //!< closed
+    std::array<std::vector<std::vector<Vec2>>, 4> flaps; //!< what lies beyond each side: two hooks, or one lip
+};
+
+//! \brief The contour for an element, good to 0.3 mm; a plain rhomboid when no hook can be made for it.
+PieceContour piece_contour(const Element& element);
+
+//! \brief The piece on the paper, in the place of an element, turned over when it is flipped.
+Polygon piece_on_paper(const Scene& scene, Face f, const PieceContour& contour);
+
+struct Piece
+{
+    Face face;
+    Paint paint = Paint::Built;
+};
+
+//! \brief Pieces with their hooks and lips, back to front. At joints the hooks of short sides lie over the long side,
+//! whose lip lies over the short side's rim: no order of whole pieces can show that, so what reaches beyond a piece's
+//! own sides is drawn after all bodies.
+void draw_pieces(PdfCanvas& canvas, const Scene& scene, const std::vector<Piece>& pieces, const PieceContour& contour);
+
+//! \brief The faces that share a vertex with \p f.
+std::vector<Face> faces_round(const Surface& surface, Face f);
+
+} // namespace rhombloom
