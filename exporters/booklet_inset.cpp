@@ -39,7 +39,7 @@ Vec2 free_corner(const StepPlace& place, const Vec2& at, double radius)
         for (const double y : {place.box.max.y() - edge, place.centre.y() - place.half.y() + radius - 6}) {
             if ((Vec2(x, y) - at).norm() > farthest + 1) {
                 farthest = (Vec2(x, y) - at).norm();
-                best = Vec2(x, y);
+                best = Vec2(std::round(x), std::round(y));
             }
         }
     }
@@ -182,6 +182,9 @@ void draw_inset(PdfCanvas& canvas, const BookletSources& sources, int k, const s
             draw_pieces(canvas, scene, shown.pieces, sources.contour);
             for (const Join& join : step.joins) {
                 const Vec2 at = project(scene.camera, element_centre(*scene.surface, Face(face[join.to])));
+                if (at.norm() > 1.6 * inset.radius) {
+                    continue;
+                }
                 const Vec2 inward = at * std::min(1.0, (inset.radius - 9) / std::max(1e-9, at.norm()));
                 canvas.text(std::to_string(names[join.to]), inward + Vec2(0, 2.6),
                             {7.5, 0x000000, Align::Centre, 0xFFFFFF});

@@ -43,7 +43,7 @@ void place_in_cell(StepPlace& place)
 {
     const Vec2 low = place.box.min + Vec2(6, words);
     const Vec2 high = place.box.max - Vec2(6, 8);
-    place.centre = (low + high) / 2;
+    place.centre = ((low + high) / 2).array().round(); // whole points: shared groups land on the same grid
     place.half = (high - low) / 2;
 }
 

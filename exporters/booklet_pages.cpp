@@ -7,15 +7,6 @@
 
 namespace rhombloom {
 
-namespace {
-
-constexpr int portrait_view = 1; // a little from the side, a little from above
-
-double text_width(const BookletSources& s)
-{
-    return s.layout.paper.width - 2 * page_margin;
-}
-
 std::string plural(int count, const std::string& noun)
 {
     return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
@@ -28,11 +19,21 @@ std::string duration(double minutes)
                         : "about " + to_fixed(std::round(rounded / 30.0) / 2, 1) + " hours";
 }
 
-void heading(PdfCanvas& canvas, const std::string& text)
+void draw_heading(PdfCanvas& canvas, const std::string& text)
 {
     canvas.tagged("H1", [&] {
         canvas.text(text, Vec2(page_margin, page_margin + 24), {24, 0x000000, Align::Left, 0});
     });
+}
+
+namespace {
+
+constexpr int portrait_view = 1; // a little from the side, a little from above
+constexpr int most_hooked = 300; // elements of a model that is drawn with its hooks
+
+double text_width(const BookletSources& s)
+{
+    return s.layout.paper.width - 2 * page_margin;
 }
 
 std::vector<Face> all_faces(const Surface& surface)
@@ -64,11 +65,20 @@ std::string step_destination(int step)
     return "step-" + std::to_string(step + 1);
 }
 
-void draw_model(PdfCanvas& canvas, const BookletSources& sources, const Vec2& centre, const Vec2& half)
+Camera draw_model(PdfCanvas& canvas, const BookletSources& sources, const Vec2& centre, const Vec2& half, int view,
+                  int marked)
 {
     const Surface& surface = sources.replay.surface;
-    Scene scene{&surface, fitted_camera(surface, all_faces(surface), {portrait_view}, half)};
-    canvas.shifted(centre, [&] { draw_faces(canvas, scene, all_faces(surface), {}); });
+    const std::vector<Face> faces = all_faces(surface);
+    const bool hooked = static_cast<int>(faces.size()) <= most_hooked;
+    Scene scene{&surface, fitted_camera(surface, faces, {view}, 0.97 * half)};
+    std::vector<Piece> pieces;
+    for (const Face f : painter_order(scene, faces)) {
+        const bool hooks = hooked && from_outside(scene, f) && seen_part(scene, f, faces) > 0.95;
+        pieces.push_back({f, f.idx() == marked ? Paint::Next : Paint::Built, hooks});
+    }
+    canvas.shifted(centre, [&] { draw_pieces(canvas, scene, pieces, sources.contour); });
+    return scene.camera;
 }
 
 void draw_cover(PdfCanvas& canvas, const BookletSources& sources, const std::string& title,
@@ -80,7 +90,7 @@ void draw_cover(PdfCanvas& canvas, const BookletSources& sources, const std::str
                   [&] { canvas.paragraph(title, Vec2(page_margin, page_margin + 40), text_width(sources), {36}, 42); });
     canvas.figure("The finished model: " + title + ".", [&] {
         draw_model(canvas, sources, Vec2(paper.width / 2, paper.height * 0.5),
-                   Vec2(text_width(sources) / 2, paper.height * 0.32));
+                   Vec2(text_width(sources) / 2, paper.height * 0.32), portrait_view);
     });
     std::string facts = plural(static_cast<int>(sources.replay.surface.n_faces()), "element");
     facts += options.sheets > 0 ? "   \u00B7   " + plural(options.sheets, "sheet") : "";
@@ -90,78 +100,12 @@ void draw_cover(PdfCanvas& canvas, const BookletSources& sources, const std::str
     });
 }
 
-void draw_how_to_read(PdfCanvas& canvas, const BookletSources& sources)
-{
-    heading(canvas, "How to read this booklet");
-    const char* rules[] = {
-        "Every picture shows the model as it stands, seen from outside. The red element is the next one.",
-        "Thick black lines are the sides that are joined in the step. The arrow shows where the element comes from.",
-        "Dots mean flipped: turn the element over before you hook it in. No dots: the front looks outward.",
-        "Blue-grey elements are seen from inside, through an opening. Thin grey lines show what is still missing.",
-        "The view stays the same as long as it can. When it changes, the turn is written beside the step's number.",
-        "The numbers on the elements are the steps in which they were put in.",
-        "Some steps take an element out again: a white element with a cross."};
-    double y = page_margin + 60;
-    for (const char* rule : rules) {
-        canvas.tagged("P",
-                      [&] { y = canvas.paragraph(rule, Vec2(page_margin, y), text_width(sources), {11}, 15) + 6; });
-    }
-    canvas.tagged("H2", [&] { canvas.text("Chapters", Vec2(page_margin, y + 24), {15}); });
-    y += 46;
-    for (std::size_t c = 0; c < sources.layout.chapters.size(); ++c) {
-        const Chapter& chapter = sources.layout.chapters[c];
-        const std::string line = chapter.title + ", steps " + std::to_string(chapter.first + 1) + " to " +
-                                 std::to_string(chapter.first + chapter.count) + ", page " +
-                                 std::to_string(chapter.page);
-        canvas.link(chapter_destination(static_cast<int>(c)), [&] {
-            canvas.text(line, Vec2(page_margin, y), {11, 0x0050A0, Align::Left, 0});
-        });
-        y += 16;
-    }
-}
-
-void draw_parts(PdfCanvas& canvas, const BookletSources& sources, const BookletOptions& options)
-{
-    heading(canvas, "Parts and tools");
-    const Scorecard& score = sources.plan.scorecard;
-    const auto final_count = static_cast<int>(sources.replay.surface.n_faces());
-    std::vector<std::string> lines = {
-        plural(score.parts_needed, "element") + ", all of the same shape" +
-            (score.parts_needed > final_count
-                 ? " (the finished model has " + std::to_string(final_count) + "; the others are taken out again)"
-                 : ""),
-        "Material: " + (options.material.empty() ? "sheet" : options.material) + ", " +
-            to_fixed(sources.element.thickness, 2) + " mm thick",
-        "A table, good light, and " + duration(score.minutes),
-        "Small clips or tape help to hold the rim while you work"};
-    double y = page_margin + 60;
-    for (const std::string& line : lines) {
-        canvas.tagged("P", [&] {
-            y = canvas.paragraph("\u2022  " + line, Vec2(page_margin, y), text_width(sources), {11}, 15) + 4;
-        });
-    }
-}
-
-void draw_joint(PdfCanvas& canvas, const BookletSources& sources)
-{
-    heading(canvas, "How one joint is hooked");
-    const char* rules[] = {
-        "Each element has two long sides, without hooks, and two short sides with a hook at each end.",
-        "A long side always meets a short side. The hooks lie over the long side, on the outside of the model.",
-        "Slide the long side under the first hook, bend it a little, slide it under the second hook, let go."};
-    double y = page_margin + 60;
-    for (const char* rule : rules) {
-        canvas.tagged("P",
-                      [&] { y = canvas.paragraph(rule, Vec2(page_margin, y), text_width(sources), {11}, 15) + 6; });
-    }
-}
-
 void draw_chapter(PdfCanvas& canvas, const BookletSources& sources, int chapter)
 {
     const Chapter& c = sources.layout.chapters[chapter];
     const PaperSize& paper = sources.layout.paper;
     canvas.destination(chapter_destination(chapter));
-    heading(canvas, c.title);
+    draw_heading(canvas, std::to_string(chapter + 1) + "  " + c.title);
     canvas.tagged("P", [&] {
         canvas.text("Steps " + std::to_string(c.first + 1) + " to " + std::to_string(c.first + c.count),
                     Vec2(page_margin, page_margin + 46), {12, 0x404040, Align::Left, 0});
@@ -194,19 +138,36 @@ void draw_chapter(PdfCanvas& canvas, const BookletSources& sources, int chapter)
 void draw_last_page(PdfCanvas& canvas, const BookletSources& sources)
 {
     const PaperSize& paper = sources.layout.paper;
-    heading(canvas, "Finished");
-    canvas.figure("The finished model.", [&] {
-        draw_model(canvas, sources, Vec2(paper.width / 2, paper.height * 0.42),
-                   Vec2(text_width(sources) / 2, paper.height * 0.3));
-    });
+    draw_heading(canvas, "Finished");
     if (sources.plan.steps.empty()) {
         return;
     }
-    const std::string hatch = std::to_string(sources.plan.steps.size());
+    const Step& last = sources.plan.steps.back();
+    const bool hatch = last.kind == StepKind::Insert;
+    const Vec2 centre(paper.width / 2, paper.height * 0.47);
+    const Vec2 half(text_width(sources) / 2, paper.height * 0.29);
+    canvas.figure("The finished model, hung from its top.", [&] {
+        canvas.stroke({Vec2(centre.x(), page_margin + 44), Vec2(centre.x(), centre.y() - half.y() * 0.6)},
+                      {2.2, 0x404040, 0}); // the cord; the model hides its lower end
+        draw_model(canvas, sources, centre, half, sources.layout.places.back().view, hatch ? last.element : -1);
+    });
+    std::string words = "To hang it, lead the cord through the hole where corners meet at the top, or hook the last "
+                        "elements round the lamp holder. ";
+    if (hatch) {
+        const std::vector<int> names = element_names(sources.plan, sources.replay.surface.n_faces());
+        words += "The red element is the bulb hatch: to reach the bulb, unhook it, and afterwards hook it in again as "
+                 "step " +
+                 std::to_string(sources.plan.steps.size()) + " shows (its neighbours are";
+        for (std::size_t i = 0; i < last.joins.size(); ++i) {
+            words += (i == 0                       ? " "
+                      : i + 1 == last.joins.size() ? " and "
+                                                   : ", ") +
+                     std::to_string(names[last.joins[i].to]);
+        }
+        words += last.joins.empty() ? " none)." : ").";
+    }
     canvas.tagged("P", [&] {
-        canvas.paragraph("Bulb hatch: to reach the bulb later, unhook the element of the last step, number " + hatch +
-                             ", and hook it in again as its picture shows.",
-                         Vec2(page_margin, paper.height - page_margin - 50), text_width(sources), {11}, 15);
+        canvas.paragraph(words, Vec2(page_margin, paper.height - page_margin - 76), text_width(sources), {11}, 15);
     });
 }
 

@@ -14,12 +14,23 @@ void draw_joint(PdfCanvas& canvas, const BookletSources& sources);
 void draw_chapter(PdfCanvas& canvas, const BookletSources& sources, int chapter);
 void draw_last_page(PdfCanvas& canvas, const BookletSources& sources);
 
+void draw_heading(PdfCanvas& canvas, const std::string& text);
+
+//! \brief "about 30 minutes", "about 2.5 hours".
+std::string duration(double minutes);
+
+//! \brief "1 element", "30 elements".
+std::string plural(int count, const std::string& noun);
+
 //! \brief Number of the page, chapter and progress bar at the foot of a step page.
 void draw_page_frame(PdfCanvas& canvas, const BookletSources& sources, int chapter, int first_step, int last_step,
                      int page);
 
-//! \brief The finished model, as large as fits about \p centre.
-void draw_model(PdfCanvas& canvas, const BookletSources& sources, const Vec2& centre, const Vec2& half);
+//! \brief The finished model, as large as fits about \p centre, from viewpoint \p view; with hooks when it has not too
+//! many elements to see them.
+//! \param marked an element to show in the colour of the next one; -1: none
+Camera draw_model(PdfCanvas& canvas, const BookletSources& sources, const Vec2& centre, const Vec2& half, int view,
+                  int marked = -1);
 
 //! \brief "chapter-2": where the link to a chapter leads; "step-12": to a step.
 std::string chapter_destination(int chapter);

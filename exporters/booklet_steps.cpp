@@ -181,19 +181,45 @@ void StepDrawer::State::draw_words(int k)
 {
     const Box& box = place(k).box;
     const double width = box.max.x() - box.min.x();
+    const bool reopening = step(k).kind == StepKind::Remove || step(k).kind == StepKind::Unhook;
+    if (reopening) {
+        const Vec2 low = box.min + Vec2(1, 32);
+        canvas.fill({low, low + Vec2(width - 2, 0), low + Vec2(width - 2, 26), low + Vec2(0, 26)}, 0xFBE9B7);
+    }
     canvas.tagged("H2", [&] {
-        canvas.text("Step", box.min + Vec2(8, 27), {10, 0x505050, Align::Left, 0});
-        canvas.text(" " + std::to_string(k + 1), box.min + Vec2(30, 27), {26, 0x000000, Align::Left, 0});
+        canvas.text("Step", box.min + Vec2(8, 26), {10, 0x505050, Align::Left, 0});
+        canvas.text(" " + std::to_string(k + 1), box.min + Vec2(30, 26), {26, 0x000000, Align::Left, 0});
     });
     canvas.tagged("P", [&] {
         canvas.paragraph(step_words(sources, k, names), box.min + Vec2(8, 42), width - 16, {9, 0x202020}, 11.5);
     });
-    const std::string turn = turn_words(place(k).turn);
-    if (!turn.empty()) {
-        canvas.tagged("P", [&] {
-            canvas.text("\u21BB " + turn, box.min + Vec2(width - 8, 20), {9, 0x0050A0, Align::Right, 0});
-        });
+    const std::vector<std::string> turn = turn_words(place(k).turn);
+    if (turn.empty()) {
+        return;
     }
+    double longest = 0;
+    for (const std::string& line : turn) {
+        longest = std::max(longest, canvas.text_width(line, 9));
+    }
+    draw_turn_arrow(canvas, box.min + Vec2(width - longest - 22, 17), 8, place(k).turn.round < 0);
+    canvas.tagged("P", [&] {
+        for (std::size_t i = 0; i < turn.size(); ++i) {
+            const double y = (turn.size() == 1 ? 20 : 14) + 11.0 * static_cast<double>(i);
+            canvas.text(turn[i], box.min + Vec2(width - 8, y), {9, 0x004080, Align::Right, 0});
+        }
+    });
+}
+
+void draw_turn_arrow(PdfCanvas& canvas, const Vec2& centre, double radius, bool clockwise)
+{
+    const double way = clockwise ? 1 : -1;
+    const double start = -pi / 2 + way * 0.5;
+    const double end = start + way * 4.9;
+    canvas.arc(centre, radius, start, end, {1.6, 0x004080, 0});
+    const Vec2 tip = centre + radius * Vec2(std::cos(end + way * 0.45), std::sin(end + way * 0.45));
+    const Vec2 base = centre + radius * Vec2(std::cos(end), std::sin(end));
+    const Vec2 out = (base - centre) * (0.45);
+    canvas.fill({tip, base + out, base - out}, 0x004080);
 }
 
 StepDrawer::StepDrawer(PdfCanvas& canvas, const BookletSources& sources)

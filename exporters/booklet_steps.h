@@ -43,7 +43,10 @@ void draw_inset(PdfCanvas& canvas, const BookletSources& sources, int k, const s
 //! \brief What to do in step \p k, in words: which sides go where. Elements are called by the step that put them in.
 std::string step_words(const BookletSources& sources, int k, const std::vector<int>& names);
 
-//! \brief "Turn the model 72° to the right"; empty when the view stays.
-std::string turn_words(const Turn& turn);
+//! \brief "turn 72° right" and "tip 35° toward you": how to turn the model; empty when the view stays.
+std::vector<std::string> turn_words(const Turn& turn);
+
+//! \brief A circular arrow of the given radius, clockwise or counter-clockwise.
+void draw_turn_arrow(PdfCanvas& canvas, const Vec2& centre, double radius, bool clockwise);
 
 } // namespace rhombloom

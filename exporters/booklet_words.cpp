@@ -59,17 +59,17 @@ std::string parting(const Sides& sides)
 
 } // namespace
 
-std::string turn_words(const Turn& turn)
+std::vector<std::string> turn_words(const Turn& turn)
 {
-    std::string text;
+    std::vector<std::string> lines;
     if (turn.round != 0) {
-        text = "Turn " + to_fixed(std::abs(turn.round), 0) + "\u00B0 to the " + (turn.round > 0 ? "right" : "left");
+        lines.push_back("turn " + to_fixed(std::abs(turn.round), 0) + "\u00B0 " + (turn.round > 0 ? "right" : "left"));
     }
     if (turn.tilt != 0) {
-        text += text.empty() ? "Tip " : ", tip ";
-        text += to_fixed(std::abs(turn.tilt), 0) + "\u00B0 " + (turn.tilt > 0 ? "toward you" : "away from you");
+        lines.push_back("tip " + to_fixed(std::abs(turn.tilt), 0) + "\u00B0 " +
+                        (turn.tilt > 0 ? "toward you" : "away from you"));
     }
-    return text;
+    return lines;
 }
 
 std::string step_words(const BookletSources& sources, int k, const std::vector<int>& names)
@@ -80,7 +80,8 @@ std::string step_words(const BookletSources& sources, int k, const std::vector<i
     const Sides sides = sides_of(surface, f, step, names);
     switch (step.kind) {
     case StepKind::Insert:
-        return (surface.data(f).facing == Facing::Back ? "Flipped. " : "") + joining(sides);
+        return (surface.data(f).facing == Facing::Back ? "Flipped. " : "") + joining(sides) +
+               (step.joins.size() == 4 ? " This closes the hole." : "");
     case StepKind::Remove:
         return "Reopen: take out element " + std::to_string(names[step.element]) + ". Unhook it from " +
                parting(sides) + ".";

@@ -43,7 +43,7 @@ Polygon mapped(const Polygon& nodes, const std::vector<Vec2>& uv)
 {
     Polygon result;
     for (const Vec2& p : uv) {
-        result.push_back(between(nodes, p));
+        result.push_back((8 * between(nodes, p)).array().round() / 8); // a detail is good to 0.04 mm
     }
     return result;
 }
@@ -143,23 +143,39 @@ Polygon piece_on_paper(const Scene& scene, Face f, const PieceContour& contour)
     return mapped(node_polygon(scene, f), contour.outline);
 }
 
+void draw_piece(PdfCanvas& canvas, const Scene& scene, const Piece& piece, const PieceContour& contour)
+{
+    canvas.fill_and_outline(piece_on_paper(scene, piece.face, contour), element_tint(scene, piece.face, piece.paint),
+                            contour_line(piece.paint));
+    draw_flip_dots(canvas, scene, piece.face, piece.paint);
+}
+
+void draw_flaps(PdfCanvas& canvas, const Scene& scene, const Piece& piece, const PieceContour& contour, int side,
+                int count)
+{
+    const Polygon nodes = node_polygon(scene, piece.face);
+    for (const auto& flap : contour.flaps[side]) {
+        if (count-- > 0) {
+            const Polygon chain = mapped(nodes, flap);
+            canvas.fill(chain, element_tint(scene, piece.face, piece.paint));
+            canvas.stroke(chain, contour_line(piece.paint));
+        }
+    }
+}
+
 void draw_pieces(PdfCanvas& canvas, const Scene& scene, const std::vector<Piece>& pieces, const PieceContour& contour)
 {
     for (const Piece& piece : pieces) {
-        canvas.fill_and_outline(piece_on_paper(scene, piece.face, contour),
-                                element_tint(scene, piece.face, piece.paint), contour_line(piece.paint));
-        draw_flip_dots(canvas, scene, piece.face, piece.paint);
+        if (piece.hooks) {
+            draw_piece(canvas, scene, piece, contour);
+        } else {
+            draw_element(canvas, scene, piece.face, piece.paint);
+        }
     }
     for (const Piece& piece : pieces) {
-        const Polygon nodes = node_polygon(scene, piece.face);
-        for (int side = 0; side < 4; ++side) {
-            if (!is_joined(*scene.surface, piece.face, side, pieces)) {
-                continue;
-            }
-            for (const auto& flap : contour.flaps[side]) {
-                const Polygon chain = mapped(nodes, flap);
-                canvas.fill(chain, element_tint(scene, piece.face, piece.paint));
-                canvas.stroke(chain, contour_line(piece.paint));
+        for (int side = 0; side < 4 && piece.hooks; ++side) {
+            if (is_joined(*scene.surface, piece.face, side, pieces)) {
+                draw_flaps(canvas, scene, piece, contour, side);
             }
         }
     }

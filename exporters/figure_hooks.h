@@ -22,7 +22,16 @@ struct Piece
 {
     Face face;
     Paint paint = Paint::Built;
+    bool hooks = true; //!< false: only the rhomboid, e.g. for what is seen from inside or mostly hidden
 };
+
+//! \brief One piece without regard to others.
+void draw_piece(PdfCanvas& canvas, const Scene& scene, const Piece& piece, const PieceContour& contour);
+
+//! \brief Once more what lies beyond one side of the piece (0 and 2 are long, with lips; 1 and 3 short, with hooks).
+//! \param count of the side's flaps, from its first corner on
+void draw_flaps(PdfCanvas& canvas, const Scene& scene, const Piece& piece, const PieceContour& contour, int side,
+                int count = 2);
 
 //! \brief Pieces with their hooks and lips, back to front. At joints the hooks of short sides lie over the long side,
 //! whose lip lies over the short side's rim: no order of whole pieces can show that, so what reaches beyond a piece's

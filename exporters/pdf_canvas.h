@@ -24,7 +24,7 @@ struct TextStyle
     double size = 9; //!< points
     unsigned rgb = 0x202020;
     Align align = Align::Left;
-    unsigned halo = 0; //!< colour of a rim round the letters; 0: none
+    unsigned halo = 0; //!< colour of a rounded bar behind the letters; 0: none
 };
 
 struct Line
