@@ -24,24 +24,40 @@ std::string plural(long count, const std::string& word)
     return std::to_string(count) + " " + word + (count == 1 ? "" : "s");
 }
 
-//! Breaks text into lines of at most 78 characters behind an indent.
-std::string wrapped(const std::string& text, const std::string& indent)
+//! One paragraph in lines of at most 78 characters; the first begins with \p head, the others stand under its text.
+std::string wrapped_paragraph(const std::string& text, const std::string& head)
 {
     constexpr std::size_t width = 78;
     std::string result;
-    std::string line = indent;
+    std::string line = head;
     std::size_t begin = 0;
     while (begin < text.size()) {
         const std::size_t end = std::min(text.find(' ', begin), text.size());
         const std::string word = text.substr(begin, end - begin);
-        if (line.size() > indent.size() && line.size() + 1 + word.size() > width) {
+        if (line.size() > head.size() && line.size() + 1 + word.size() > width) {
             result += line + "\n";
-            line = std::string(indent.size(), ' ');
+            line = std::string(head.size(), ' ');
         }
-        line += (line.size() > indent.size() ? " " : "") + word;
+        line += (line.size() > head.size() ? " " : "") + word;
         begin = end + 1;
     }
     return result + line + "\n";
+}
+
+//! Paragraphs, all under the first one's text.
+std::string wrapped(const std::string& text, const std::string& head)
+{
+    std::string result;
+    std::string indent = head;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        if (end > begin) {
+            result += wrapped_paragraph(text.substr(begin, end - begin), indent);
+            indent = std::string(head.size(), ' ');
+        }
+        begin = end + 1;
+    }
+    return result;
 }
 
 std::string contents(const FileSet& files)
@@ -95,7 +111,7 @@ std::string first_steps(const Summary& s)
     std::string text = wrapped("Measure the reference square in your cutting "
                                "program: 50 mm? Then the size is right.",
                                "  1. ");
-    text += wrapped("Cut the coupon. " + s.cut.coupon_text, "  2. ");
+    text += wrapped(s.cut.coupon_text, "  2. ");
     text += wrapped("Cut the sheets. " + s.piece.material.laser, "  3. ");
     return text + wrapped("Follow booklet.pdf. Start with a good hour and a table.", "  4. ");
 }

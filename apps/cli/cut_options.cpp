@@ -101,12 +101,19 @@ std::shared_ptr<CutArguments> add_cut_options(CLI::App& command)
     add("--margin", a->margin, "free along the sheet's edges, mm (default 3, or the machine's)");
     add("--spares", a->spares, "extra pieces, e.g. 3%");
     add("--colours", a->colours, "layer colours: lightburn, trotec, k40, ponoko, glowforge, boxes");
-    add("--dxf", a->dxf, "DXF version: r2000 (default) or r12")->check(CLI::IsMember({"r2000", "r12"}));
+    add("--dxf", a->dxf, "DXF version: r2000 (default) or r12")
+        ->check(CLI::IsMember({"r2000", "r12"}))
+        ->option_text("NAME");
     add("--grain", a->grain, "turns allowed on the sheet: any (default), half-turn or fixed")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, Grain>{
-            {"any", Grain::Any}, {"half-turn", Grain::HalfTurn}, {"fixed", Grain::Fixed}}));
-    add("--price-per-sheet", a->price_per_sheet, "for the cost in kit.json")->check(CLI::Range(0.0, 1e6));
-    add("--price-per-minute", a->price_per_minute, "of the machine")->check(CLI::Range(0.0, 1e6));
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, Grain>{{"any", Grain::Any}, {"half-turn", Grain::HalfTurn}, {"fixed", Grain::Fixed}}))
+        ->option_text("NAME");
+    add("--price-per-sheet", a->price_per_sheet, "for the cost in kit.json")
+        ->check(CLI::Range(0.0, 1e6))
+        ->option_text("NUMBER");
+    add("--price-per-minute", a->price_per_minute, "of the machine")
+        ->check(CLI::Range(0.0, 1e6))
+        ->option_text("NUMBER");
     command.add_flag("--no-engraving", a->plain, "no numbers and arrows on the pieces")->group("Sheets");
     return a;
 }

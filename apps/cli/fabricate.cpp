@@ -116,11 +116,14 @@ void add_fabricate(CLI::App& app, Run& run)
         ->transform(names<KitPart>({{"cut", KitPart::Cut},
                                     {"booklet", KitPart::Booklet},
                                     {"preview", KitPart::Preview},
-                                    {"hooks", KitPart::Hooks}}));
+                                    {"hooks", KitPart::Hooks}}))
+        ->option_text("PART,...");
     command->add_option("--paper", options->kit.paper, "of booklet and template: a4 (default) or letter")
-        ->transform(names<Paper>({{"a4", Paper::A4}, {"letter", Paper::Letter}}));
+        ->transform(names<Paper>({{"a4", Paper::A4}, {"letter", Paper::Letter}}))
+        ->option_text("NAME");
     command->add_option("--order", options->kit.order, "of assembly: best (default) or paper")
-        ->transform(names<Order>({{"best", Order::Best}, {"paper", Order::Paper}}));
+        ->transform(names<Order>({{"best", Order::Best}, {"paper", Order::Paper}}))
+        ->option_text("NAME");
     command->add_flag_callback(
         "--lamp", [options] { options->kit.lamp = LampLook::On; }, "show it lit in the preview");
     options->piece = add_piece_options(*command);

@@ -52,7 +52,8 @@ void add_plan(CLI::App& app, Run& run)
     command->add_option("DESIGN", *design, "design file")->required();
     command->add_option("--order", *order, "best (default) or paper")
         ->transform(
-            CLI::CheckedTransformer(std::map<std::string, Order>{{"best", Order::Best}, {"paper", Order::Paper}}));
+            CLI::CheckedTransformer(std::map<std::string, Order>{{"best", Order::Best}, {"paper", Order::Paper}}))
+        ->option_text("NAME");
     command->add_flag("--json", *json, "the whole plan, machine-readable");
     command->callback(
         [&run, design, order, json] { run = [design, order, json] { return run_plan(*design, *order, *json); }; });
