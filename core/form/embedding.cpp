@@ -67,7 +67,7 @@ std::string bad_position(const Surface& surface)
     constexpr double largest = 1e9; // mm
     for (const Vertex v : surface.vertices()) {
         const Vec3& p = surface.point(v);
-        if (!(p.cwiseAbs().maxCoeff() <= largest)) {
+        if (!p.allFinite() || p.cwiseAbs().maxCoeff() > largest) {
             return "vertex " + std::to_string(v.idx()) + " is at (" + to_text(p.x()) + ", " + to_text(p.y()) + ", " +
                    to_text(p.z()) + ") mm: expected finite coordinates of at most " + to_text(largest) + " mm";
         }
@@ -108,12 +108,13 @@ MinimiseOptions minimise_options(const EmbedOptions& options, double la)
     out.max_iterations = options.max_iterations;
     out.threads = options.threads > 0 ? options.threads : default_threads();
     const auto begin = Clock::now();
-    out.progress = [&options, begin, la](int iteration, const Iterate& iterate) {
+    out.progress = [&options, begin, la, iteration = 0, go_on = true](int, const Iterate& iterate) mutable {
         const std::chrono::duration<double> spent = Clock::now() - begin;
-        if (options.time_budget_s > 0 && spent.count() > options.time_budget_s) {
-            return false;
+        go_on = go_on && !(options.time_budget_s > 0 && spent.count() > options.time_budget_s);
+        if (go_on && options.progress) {
+            go_on = options.progress({iteration++, iterate.energy * la, iterate.gradient_norm()});
         }
-        return !options.progress || options.progress({iteration, iterate.energy * la, iterate.gradient_norm()});
+        return go_on;
     };
     return out;
 }

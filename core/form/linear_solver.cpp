@@ -9,6 +9,7 @@
 #include "core/expected.h"
 #include "core/form/dense_kernels.h"
 #include "core/form/elimination_tree.h"
+#include "core/form/front_shape.h"
 #include "core/form/parallel.h"
 
 namespace rhombloom {
@@ -17,51 +18,6 @@ namespace {
 
 constexpr double smallest_parallel_work = 2e7; // multiplications; below, starting a thread costs more than it brings
 constexpr int smallest_shared_update = 24;     // strips of an update matrix that two threads share
-
-// Sizes of a front in scalars; its panel holds the pivot strips, then the strips below.
-struct Shape
-{
-    int columns;
-    int rows;
-    int diagonal_strips;
-    int strips;
-
-    explicit Shape(const Front& front)
-        : columns(3 * front.pivots()), rows(3 * static_cast<int>(front.rows.size())),
-          diagonal_strips(strip_count(columns)), strips(diagonal_strips + strip_count(rows))
-    {
-    }
-
-    std::size_t panel_size() const { return std::size_t(strip) * columns * strips; }
-
-    std::size_t update_size() const
-    {
-        const std::size_t below = strips - diagonal_strips;
-        return std::size_t(strip) * strip / 2 * below * (below + 1);
-    }
-
-    double work() const
-    {
-        double sum = 0;
-        for (int k = 0; k < columns; ++k) {
-            const double length = columns - k + rows;
-            sum += length * length / 2;
-        }
-        return sum;
-    }
-};
-
-// Offsets of a scalar row: entry (i, k) lies at row_offset + strip * k.
-std::size_t panel_row(const Shape& shape, int i)
-{
-    return std::size_t(strip) * shape.columns * (i / strip) + i % strip;
-}
-
-std::size_t update_row(int i)
-{
-    const std::size_t s = i / strip;
-    return std::size_t(strip) * strip / 2 * s * (s + 1) + i % strip;
-}
 
 // Where a block of the matrix goes: the same place of its front's panel in every factorisation.
 struct BlockTarget
@@ -85,7 +41,7 @@ struct Task
 struct LinearSolver::Factor
 {
     EliminationTree tree;
-    std::vector<Shape> shapes;
+    std::vector<FrontShape> shapes;
     std::vector<std::size_t> panel_offset;
     std::vector<BlockTarget> targets;
     std::vector<std::size_t> first_target; // per front
@@ -229,7 +185,7 @@ std::size_t LinearSolver::Factor::stack_size(const std::vector<int>& fronts) con
 double LinearSolver::Factor::total_work() const
 {
     return std::accumulate(shapes.begin(), shapes.end(), 0.0,
-                           [](double sum, const Shape& shape) { return sum + shape.work(); });
+                           [](double sum, const FrontShape& shape) { return sum + shape.work(); });
 }
 
 void LinearSolver::Factor::assemble_matrix(const BlockMatrix& matrix, double shift, int f)
@@ -292,7 +248,7 @@ void LinearSolver::Factor::assemble_child(int f, int child, double* update_matri
 
 void LinearSolver::Factor::subtract_update(int f, double* update_matrix, int helpers) const
 {
-    const Shape& shape = shapes[f];
+    const FrontShape& shape = shapes[f];
     const int strips = shape.strips - shape.diagonal_strips;
     const double* below = panels.data() + panel_offset[f] + std::size_t(strip) * shape.columns * shape.diagonal_strips;
     if (helpers == 1 || strips < smallest_shared_update) {
@@ -314,7 +270,7 @@ bool LinearSolver::Factor::factor_fronts(const BlockMatrix& matrix, double shift
         if (failed) {
             return false;
         }
-        const Shape& shape = shapes[f];
+        const FrontShape& shape = shapes[f];
         double* own = stack_top;
         double* bottom = own;
         std::memset(own, 0, sizeof(double) * shape.update_size());
@@ -372,7 +328,7 @@ void LinearSolver::Factor::gather(const Eigen::VectorXd& y, std::size_t f, std::
 
 void LinearSolver::Factor::solve_forward(Eigen::VectorXd& y, std::size_t f, std::vector<double>& local) const
 {
-    const Shape& shape = shapes[f];
+    const FrontShape& shape = shapes[f];
     gather(y, f, local);
     dense_kernels().solve_forward(&panels[panel_offset[f]], shape.columns, shape.diagonal_strips, shape.strips,
                                   local.data());
@@ -387,7 +343,7 @@ void LinearSolver::Factor::solve_forward(Eigen::VectorXd& y, std::size_t f, std:
 void LinearSolver::Factor::solve_backward(Eigen::VectorXd& y, std::size_t f, std::vector<double>& local,
                                           std::vector<double>& scratch) const
 {
-    const Shape& shape = shapes[f];
+    const FrontShape& shape = shapes[f];
     gather(y, f, local);
     scratch.resize(std::size_t(strip) * shape.columns);
     dense_kernels().solve_backward(&panels[panel_offset[f]], shape.columns, shape.diagonal_strips, shape.strips,

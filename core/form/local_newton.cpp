@@ -110,6 +110,14 @@ MinimiseResult local_newton(const EmbeddingTerms& terms, Iterate& iterate, const
     Iterate local = iterate_at(patch.terms, x);
     MinimiseOptions local_options = options;
     local_options.tolerance = options.tolerance / 2;
+    if (options.progress) {
+        const double elsewhere = iterate.energy - local.energy;
+        local_options.progress = [&options, elsewhere](int iteration, const Iterate& now) {
+            Iterate whole = now;
+            whole.energy += elsewhere;
+            return options.progress(iteration, whole);
+        };
+    }
     result = newton(patch.terms, local, local_options);
     VectorXd moved = iterate.x;
     for (int k = 0; k < patch.terms.free_count; ++k) {

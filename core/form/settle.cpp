@@ -104,14 +104,37 @@ bool repair(const EmbeddingTerms& terms, const VectorXd& start, const VectorXd& 
     return true;
 }
 
-Candidate attempt(const EmbeddingTerms& terms, const VectorXd& x, const MinimiseOptions& options)
+Candidate descend(const EmbeddingTerms& terms, const VectorXd& x, const MinimiseOptions& options)
 {
     Candidate candidate{iterate_at(terms, x), {}};
-    candidate.result = local_newton(terms, candidate.iterate, options);
+    const auto go_on = [&](const auto& method) {
+        const int before = candidate.result.iterations;
+        candidate.result = method(terms, candidate.iterate, options);
+        candidate.result.iterations += before;
+    };
+    go_on(local_newton);
+    if (candidate.result.reason == StopReason::Stalled && candidate.result.iterations > 0) {
+        go_on(newton); // after a local edit, no far way is left
+    }
     if (candidate.result.reason == StopReason::Stalled) {
-        candidate.result = minimise(terms, candidate.iterate, options);
+        go_on(minimise);
     }
     return candidate;
+}
+
+// A surface that has settled inside out turns over.
+Candidate attempt(const EmbeddingTerms& terms, const VectorXd& x, const MinimiseOptions& options)
+{
+    Candidate candidate = descend(terms, x, options);
+    VectorXd inverted = candidate.iterate.x;
+    mirror(inverted);
+    if (candidate.result.reason == StopReason::Cancelled ||
+        embedding_energy(terms, inverted).total() >= 0.9 * candidate.iterate.energy) {
+        return candidate;
+    }
+    Candidate turned = descend(terms, inverted, options);
+    turned.result.iterations += candidate.result.iterations;
+    return turned;
 }
 
 bool has_collapsed(const EmbeddingTerms& terms, const VectorXd& x)
@@ -183,8 +206,12 @@ Settled settle(EmbeddingTerms& terms, VectorXd& x, const MinimiseOptions& option
         ++settled.restarts;
         Candidate next = attempt(terms, repaired, options);
         iterations += next.result.iterations;
+        const bool cancelled = next.result.reason == StopReason::Cancelled;
         if (is_better(next, best)) {
             best = std::move(next);
+        }
+        if (cancelled) {
+            break;
         }
     }
     best.result.iterations = iterations;

@@ -43,8 +43,7 @@ RivalResult libnest2d_on_hulls(const std::vector<Vec2>& outline, const NestOptio
     config.placer_config.starting_point = where;
     config.placer_config.parallel = false;
     RivalResult result;
-    result.sheets = static_cast<int>(
-        libnest2d::nest(items, bin, std::llround(options.spacing * 1e6), config));
+    result.sheets = static_cast<int>(libnest2d::nest(items, bin, std::llround(options.spacing * 1e6), config));
     std::map<int, int> per_bin;
     for (const auto& item : items) {
         result.per_sheet = std::max(result.per_sheet, ++per_bin[item.binId()]);

@@ -5,6 +5,8 @@
 #include <Eigen/SparseCholesky>
 #include <lbfgs.h>
 
+#include "core/form/settle.h"
+
 namespace rhombloom::bench {
 
 namespace {
@@ -124,9 +126,10 @@ Solver ours(int threads)
                 options.progress = [&](int, const Iterate& now) {
                     return recorder.record(now.energy, now.gradient_norm());
                 };
-                Iterate iterate = iterate_at(terms, start);
-                minimise(terms, iterate, options);
-                recorder.record(iterate.energy, iterate.gradient_norm());
+                EmbeddingTerms own = terms;
+                Eigen::VectorXd x = start;
+                settle(own, x, options);
+                recorder.record(terms, x);
                 return recorder.trace();
             }};
 }
