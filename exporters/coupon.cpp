@@ -202,7 +202,7 @@ Fit add_pair(Laid& laid, Shelves& shelves, const Strip& slot, const Strip& edge,
 
 std::string pairs_text(const std::vector<double>& kerfs)
 {
-    std::string text = "2. The two strips with the same number of notches are one joint, drawn for one kerf: ";
+    std::string text = "b. The two strips with the same number of notches are one joint, drawn for one kerf: ";
     for (std::size_t i = 0; i < kerfs.size(); ++i) {
         text += (i == 0 ? "" : ", ") + std::to_string(i + 1) + (i == 0 ? " notch " : " notches ") + to_text(kerfs[i]) +
                 " mm";
@@ -215,15 +215,16 @@ std::string reading(const std::vector<double>& kerfs, const CutOptions& options)
 {
     std::string text = "Cut the coupon first, in the material and with the settings of the sheets, and with the "
                        "cutting program's own kerf offset switched off.\n"
-                       "1. Measure the square: it is drawn 50 mm wide, for no kerf. 50 mm minus what you measure is "
+                       "a. Measure the square: it is drawn 50 mm wide, for no kerf. 50 mm minus what you measure is "
                        "the kerf (the full width of the cut); more than 1 mm off means that the program changed the "
                        "scale.\n";
     text += kerfs.empty() ? "" : pairs_text(kerfs);
-    text += "3. Give the value that fits: --kerf VALUE";
+    text += "c. Give the value that fits: --kerf VALUE";
     if (options.kerf_x == 0 && options.kerf_y == 0) {
         text += " (or leave --kerf away and enter it as the kerf offset of the cutting program: once, not twice)";
     }
-    return text + ". If every joint is too tight, give a wider --slit; if every joint rattles, a narrower one.\n";
+    return text +
+           ". If every joint is too tight, give a wider --slit-clearance; if every joint rattles, a narrower one.\n";
 }
 
 } // namespace

@@ -9,7 +9,7 @@ struct Coupon
 {
     Drawing drawing;
     std::vector<double> kerfs; //!< mm; the pair with n notches is drawn for the n-th
-    std::string text;          //!< for the README: how to read it and which option to set
+    std::string text;          //!< for the README: what to do, then lines "a. ..." that say how to read it
     std::string warning;       //!< empty when all pairs could be drawn
 };
 

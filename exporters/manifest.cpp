@@ -99,7 +99,8 @@ std::string amounts(const Summary& s)
             to_fixed(s.options.cut.sheet_height, 1) + " mm, " + s.piece.material.title + ", " +
             to_fixed(100 * cut.utilisation, 0) + " % used\n";
     text += "  " + to_fixed(cut.cut_length_m, 1) + " m to cut, about " + to_fixed(std::ceil(cut.minutes), 0) +
-            " minutes at " + to_fixed(cut.speeds.cut, 0) + " mm/s; the parts weigh " + to_fixed(cut.mass_g, 0) + " g\n";
+            " minutes; the parts weigh " + to_fixed(cut.mass_g, 0) + " g\n";
+    text += wrapped("(assumed, not measured: " + cut.speeds_text + ")", "  ");
     if (cut.cost) {
         text += "  cost " + to_fixed(*cut.cost, 2) + " at the prices given\n";
     }
@@ -108,8 +109,11 @@ std::string amounts(const Summary& s)
 
 std::string first_steps(const Summary& s)
 {
-    std::string text = wrapped("Measure the reference square in your cutting "
-                               "program: 50 mm? Then the size is right.",
+    const std::string size =
+        s.cut.coupon_text.empty() ? "the sheet must have its size" : "the square must measure 50 mm";
+    const std::string file = s.cut.coupon_text.empty() ? "cut/sheet-01" : "cut/coupon";
+    std::string text = wrapped("Open " + file + " in your cutting program: " + size +
+                                   ". Give each layer (or colour) its job: " + s.cut.layers_text + ".",
                                "  1. ");
     text += wrapped(s.cut.coupon_text, "  2. ");
     text += wrapped("Cut the sheets. " + s.piece.material.laser, "  3. ");
@@ -147,6 +151,8 @@ std::string manifest_json(const Summary& s, const FileSet& files)
         root["pierces"] = s.cut.pierces;
         root["cut_minutes"] = rounded(s.cut.minutes, 1e-3);
         root["assumed_cut_speed_mm_s"] = s.cut.speeds.cut;
+        root["assumed_speeds"] = s.cut.speeds_text;
+        root["layers"] = s.cut.layers_text;
         root["mass_g"] = rounded(s.cut.mass_g, 1e-3);
         root["remnant_mm"] = {rounded(s.cut.remnant.width, 1e-3), rounded(s.cut.remnant.height, 1e-3)};
         if (s.cut.cost) {

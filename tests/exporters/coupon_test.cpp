@@ -64,9 +64,9 @@ TEST(Coupon, ExplainsItsNotchesAndNamesTheOption)
 
 TEST(Coupon, HasNoSegmentThatLaserProgramsSwallow)
 {
-    for (const double la : {40.0, 47.0, 80.0, 133.0, 200.0}) {
-        for (const double alpha : {52.0, 63.435, 70.0, 79.0}) {
-            for (const double kerf : {0.0, 0.15}) {
+    for (const double la : {40.0, 80.0, 200.0}) {
+        for (const double alpha : {52.0, 63.435, 79.0}) {
+            for (const double kerf : {0.15}) {
                 Element element;
                 element.la = la;
                 element.lb = 1.08 * la;
