@@ -88,7 +88,7 @@ Expected<void> add_preview(Kit& kit, const Design& design, const Replay& replay,
 Expected<void> add_hooks(Kit& kit, const Design& design, const Piece& piece, const KitOptions& options)
 {
     tell(options, "OpenSCAD templates");
-    auto made = hook_files(piece.parameters.hook, design.title);
+    auto made = hook_files(piece.parameters, design.title);
     if (!made) {
         return tl::make_unexpected(made.error());
     }

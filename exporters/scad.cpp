@@ -128,6 +128,15 @@ std::string readme(const std::string& title, const HookParameters& p)
            "  openscad -o element.stl -D 'output=\"print\"' element.scad\n";
 }
 
+//! OpenSCAD draws outlines only: where one pass of the tool is wider than the slit, the finished edge is drawn.
+PieceParameters with_template_kerf(PieceParameters parameters)
+{
+    if (std::max(parameters.kerf.x, parameters.kerf.y) >= parameters.hook.slit - narrowest_slit) {
+        parameters.kerf = {};
+    }
+    return parameters;
+}
+
 struct Sources
 {
     PieceParameters parameters;
@@ -219,8 +228,9 @@ Expected<std::string> with_literal(const std::string& scad, const std::string& n
     return scad.substr(0, begin) + value + scad.substr(end);
 }
 
-Expected<FileSet> hook_files(const PieceParameters& parameters, const std::string& title)
+Expected<FileSet> hook_files(const PieceParameters& piece, const std::string& title)
 {
+    const PieceParameters parameters = with_template_kerf(piece);
     const auto outline = element_outline(parameters.hook);
     if (!outline) {
         return tl::make_unexpected(outline.error());

@@ -17,7 +17,8 @@ namespace rhombloom {
 //! parameter exactly once.
 Expected<FileSet> hook_files(const HookParameters& parameters, const std::string& title);
 
-//! \brief The same with the kerf of the machine, for the templates that draw the cut sheet.
+//! \brief The same with the kerf of the machine, for the templates that draw the cut sheet. A kerf that closes the slit
+//! is left out: the template draws the finished edge then.
 Expected<FileSet> hook_files(const PieceParameters& parameters, const std::string& title);
 
 //! What a template draws.

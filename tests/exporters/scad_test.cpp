@@ -211,6 +211,16 @@ TEST(HookFiles, SayWhenHookSizesAreTheMakersOwn)
     EXPECT_TRUE(contains(hook_files(own, "")->at("hooks/element.scad"), "\nhook_sizes = \"given\"; // ["));
 }
 
+TEST(HookFiles, CarryTheKerfUnlessItClosesTheSlit)
+{
+    const auto kerf_of = [](double kerf) {
+        const std::string scad = hook_files({hook_parameters({}), {kerf, kerf}}, "")->at("hooks/element.scad");
+        return scad.substr(scad.find("\nkerf = ") + 8, 3);
+    };
+    EXPECT_EQ(kerf_of(0.2), "0.2");
+    EXPECT_EQ(kerf_of(0.8), "0; ");
+}
+
 TEST(HookFiles, RefuseWhatHasNoOutline)
 {
     HookParameters impossible = hook_parameters({});
