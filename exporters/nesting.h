@@ -70,6 +70,10 @@ struct Nesting
 //! Refuses outlines that cross themselves, impossible options, and copies larger than the sheet.
 Expected<Nesting> nest(const std::vector<Vec2>& outline, const NestOptions& options);
 
+//! \brief A counter-clockwise polygon that contains the closed \p path and keeps within \p slack (mm) of it: what to
+//! nest when arcs shall keep their distance too.
+std::vector<Vec2> enclosing_polygon(const Path& path, double slack);
+
 //! \brief Point \p p of the outline where \p placement puts it.
 Vec2 placed(const Vec2& p, const Placement& placement);
 

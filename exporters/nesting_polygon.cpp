@@ -168,10 +168,15 @@ Expected<void> check_simple(const Polygon& polygon)
         }
     }
     const Box box = box_of(polygon);
-    if (std::abs(signed_area(polygon)) <= 1e-9 * (box.max - box.min).squaredNorm()) {
-        return refuse("the outline encloses no area");
+    const double least_area = 1e-9 * (box.max - box.min).squaredNorm();
+    const Polygon hull = convex_hull(polygon);
+    if (hull.size() < 3 || signed_area(hull) <= least_area) {
+        return refuse("the outline encloses no area: all its points lie in a line");
     }
-    return check_crossings(polygon);
+    if (auto ok = check_crossings(polygon); !ok) {
+        return ok;
+    }
+    return std::abs(signed_area(polygon)) > least_area ? Expected<void>{} : refuse("the outline encloses no area");
 }
 
 Polygon inflated(const Polygon& polygon, double radius, double slack)

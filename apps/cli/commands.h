@@ -16,6 +16,7 @@ void add_fabricate(CLI::App& app, Run& run);
 void add_check(CLI::App& app, Run& run);
 void add_embed(CLI::App& app, Run& run);
 void add_shapes(CLI::App& app, Run& run);
+void add_nest(CLI::App& app, Run& run);
 void add_plan(CLI::App& app, Run& run);
 
 } // namespace rhombloom::cli

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "exporters/nesting_polygon.h"
-#include "tests/bench/bench_nesting_rival.h"
+#include "tests/bench/nesting_rival.h"
 #include "tests/exporters/nesting_outlines.h"
 
 namespace {

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "exporters/nesting_polygon.h"
-#include "tests/bench/bench_nesting_rival.h"
+#include "tests/bench/nesting_rival.h"
 
 namespace rhombloom {
 
