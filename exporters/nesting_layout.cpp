@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "exporters/nesting_rows.h"
 
 namespace rhombloom::nesting {
 
@@ -114,7 +115,8 @@ Layout densest_layout(const Piece& piece, const Room& room)
             best = std::move(layout);
         }
     }
-    return best;
+    Layout rows = best_rows(piece, room, best.size());
+    return rows.empty() ? best : rows;
 }
 
 Layout packed_layout(const Piece& piece, const Room& room, const Layout& full, int count)

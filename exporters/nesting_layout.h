@@ -12,6 +12,7 @@ struct Piece
     Polygon hull;     //!< of the finished outline: what must stay inside the margins
     Polygon inflated; //!< by half the spacing: what must not overlap
     NoFit self;       //!< offsets at which a copy overlaps an equally turned one
+    NoFit turned;     //!< offsets at which a copy turned by 180 degrees overlaps a drawn one
     Grain grain = Grain::Any;
     Mirror mirror = Mirror::Never;
     std::vector<Pattern> patterns; //!< densest first

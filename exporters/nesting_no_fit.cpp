@@ -237,4 +237,19 @@ bool overlaps(const NoFit& region, const Vec2& p, double tolerance)
     return true;
 }
 
+double reach_along(const NoFit& region, const Vec2& direction)
+{
+    double reach = 0;
+    for (const Polygon& contour : region.contours) {
+        for (std::size_t i = 0, j = contour.size() - 1; i < contour.size(); j = i++) {
+            const double a = cross(direction, contour[j]), b = cross(direction, contour[i]);
+            if ((a <= 0 && b >= 0) || (a >= 0 && b <= 0)) {
+                const double t = a == b ? 0 : a / (a - b);
+                reach = std::max(reach, direction.dot(contour[j] + t * (contour[i] - contour[j])));
+            }
+        }
+    }
+    return reach;
+}
+
 } // namespace rhombloom::nesting

@@ -33,6 +33,9 @@ NoFit united(const std::vector<MovedNoFit>& regions);
 //! \brief The region turned by \p t about the origin.
 NoFit turned(const NoFit& region, const Turn& t);
 
+//! \brief How far the region reaches from the origin along the unit vector \p direction.
+double reach_along(const NoFit& region, const Vec2& direction);
+
 //! \brief Is the offset \p p an overlap deeper than \p tolerance (mm)?
 bool overlaps(const NoFit& region, const Vec2& p, double tolerance = 1e-7);
 

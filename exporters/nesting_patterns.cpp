@@ -20,13 +20,7 @@ constexpr double trial_work = 4e6;
 //! Turns of a mirrored mate that lay one of its long edges against a long edge of the drawn copy.
 std::vector<double> facing_turns(const Polygon& outline)
 {
-    std::vector<Vec2> edges;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-        edges.push_back(outline[(i + 1) % outline.size()] - outline[i]);
-    }
-    std::stable_sort(edges.begin(), edges.end(),
-                     [](const Vec2& a, const Vec2& b) { return a.squaredNorm() > b.squaredNorm(); });
-    edges.resize(std::min<std::size_t>(edges.size(), 3));
+    const std::vector<Vec2> edges = long_edges(outline, 3);
     std::vector<double> turns = {0, pi};
     for (const Vec2& a : edges) {
         for (const Vec2& b : edges) {
@@ -123,6 +117,7 @@ Piece piece_of(const Polygon& outline, const NestOptions& options)
     piece.inflated = inflated(outline, options.spacing / 2, corner_slack);
     piece.inflated = simplified_outward(piece.inflated, simplification);
     piece.self = no_fit(piece.inflated, piece.inflated);
+    piece.turned = no_fit(piece.inflated, oriented(piece.inflated, {pi, false}));
     piece.grain = options.grain;
     piece.mirror = options.mirror;
     piece.patterns = patterns_of(piece);

@@ -157,6 +157,18 @@ Polygon convex_hull(Polygon points)
     return hull;
 }
 
+std::vector<Vec2> long_edges(const Polygon& polygon, std::size_t count)
+{
+    std::vector<Vec2> edges;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        edges.push_back(polygon[(i + 1) % polygon.size()] - polygon[i]);
+    }
+    std::stable_sort(edges.begin(), edges.end(),
+                     [](const Vec2& a, const Vec2& b) { return a.squaredNorm() > b.squaredNorm(); });
+    edges.resize(std::min(edges.size(), count));
+    return edges;
+}
+
 Expected<void> check_simple(const Polygon& polygon)
 {
     if (polygon.size() < 3) {

@@ -45,6 +45,9 @@ Box box_of(const Polygon& polygon);
 //! \brief Counter-clockwise, no three points in a line.
 Polygon convex_hull(Polygon points);
 
+//! \brief The \p count longest edges as vectors, longest first.
+std::vector<Vec2> long_edges(const Polygon& polygon, std::size_t count);
+
 //! \brief Refuse fewer than three points, numbers that are not finite, no area, touching or crossing edges.
 Expected<void> check_simple(const Polygon& polygon);
 
