@@ -6,6 +6,7 @@
 
 #include "core/text.h"
 #include "exporters/kerf_offset.h"
+#include "exporters/short_segments.h"
 
 namespace rhombloom {
 
