@@ -44,28 +44,14 @@ Vec2 run_point(const Run& run, const Tool& tool, double f)
     return point(run.base, f) + rim_point(tool, right_normal(run_tangent(run, f)));
 }
 
-//! The pair of arcs between two points with tangents; they meet where both tangents have the same length.
-Chain biarc(const Vec2& p, const Vec2& S, const Vec2& q, const Vec2& T)
-{
-    const auto bulge_along = [](const Vec2& t, const Vec2& c) {
-        return (t.x() * c.y() - t.y() * c.x()) / (c.norm() + t.dot(c));
-    };
-    const Vec2 v = q - p;
-    const double x = v.dot(S + T);
-    const double l = v.squaredNorm() / (x + std::sqrt(x * x + 2 * (1 - S.dot(T)) * v.squaredNorm()));
-    const Vec2 middle = 0.5 * (p + l * S + q - l * T);
-    const Vec2 between = (v - l * (S + T)).normalized();
-    return {{p, middle, bulge_along(S, middle - p)}, {middle, q, bulge_along(between, q - middle)}};
-}
-
 Chain biarcs(const Run& run, const Tool& tool, int pieces)
 {
     Chain chain;
     for (int i = 0; i < pieces; ++i) {
         const double f = static_cast<double>(i) / pieces;
         const double g = static_cast<double>(i + 1) / pieces;
-        const Chain pair =
-            biarc(run_point(run, tool, f), run_tangent(run, f), run_point(run, tool, g), run_tangent(run, g));
+        const auto pair =
+            biarc({run_point(run, tool, f), run_tangent(run, f)}, {run_point(run, tool, g), run_tangent(run, g)});
         chain.insert(chain.end(), pair.begin(), pair.end());
     }
     return chain;

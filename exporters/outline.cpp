@@ -38,13 +38,6 @@ Chain with_mirror_image(const Chain& half, double length)
     return side;
 }
 
-//! The bulge of the arc that leaves along the unit vector \p tangent for \p chord.
-double bulge_from_tangent(const Vec2& tangent, const Vec2& chord)
-{
-    const double cross = tangent.x() * chord.y() - tangent.y() * chord.x();
-    return cross / (chord.norm() + tangent.dot(chord));
-}
-
 double neck_depth(const HookParameters& p)
 {
     return p.neck_setback + p.relief;
@@ -158,19 +151,6 @@ Cubic scoop_cubic(const HookParameters& p)
     return {start, start + Vec2(run, -depth), end - Vec2(run, depth), end};
 }
 
-//! The two arcs from \p p along \p S to \p q along \p T; they meet where both tangents have the same length. The
-//! signs of the bulges are those of a right-handed frame.
-void append_biarc(Chain& chain, const Vec2& p, const Vec2& S, const Vec2& q, const Vec2& T)
-{
-    const Vec2 v = q - p;
-    const double x = v.dot(S + T);
-    const double l = v.squaredNorm() / (x + std::sqrt(x * x + 2 * (1 - S.dot(T)) * v.squaredNorm()));
-    const Vec2 middle = 0.5 * (p + l * S + q - l * T);
-    const Vec2 tangent = (q - p - l * (S + T)).normalized();
-    chain.push_back({p, bulge_from_tangent(S, middle - p)});
-    chain.push_back({middle, bulge_from_tangent(tangent, q - middle)});
-}
-
 Chain scoop(const HookParameters& p)
 {
     const Cubic cubic = scoop_cubic(p);
@@ -178,10 +158,9 @@ Chain scoop(const HookParameters& p)
     for (int i = 0; i < scoop_biarcs; ++i) {
         const double t = static_cast<double>(i) / scoop_biarcs;
         const double u = static_cast<double>(i + 1) / scoop_biarcs;
-        append_biarc(chain, cubic.point(t), cubic.tangent(t), cubic.point(u), cubic.tangent(u));
-    }
-    for (PathVertex& v : chain) {
-        v.bulge = -v.bulge; // the side's frame is left-handed
+        for (const Segment& s : biarc({cubic.point(t), cubic.tangent(t)}, {cubic.point(u), cubic.tangent(u)})) {
+            chain.push_back({s.a, -s.bulge}); // the side's frame is left-handed
+        }
     }
     return chain;
 }

@@ -211,6 +211,20 @@ std::vector<std::pair<double, double>> crossings(const Segment& s, const Segment
     return result;
 }
 
+std::array<Segment, 2> biarc(const Heading& from, const Heading& to)
+{
+    const auto bulge = [](const Vec2& t, const Vec2& chord) { return cross(t, chord) / (chord.norm() + t.dot(chord)); };
+    const Vec2 v = to.point - from.point;
+    const Vec2 both = from.tangent + to.tangent;
+    const double x = v.dot(both);
+    const double bend = 2 * (1 - from.tangent.dot(to.tangent));
+    const double reach = v.squaredNorm() / (x + std::sqrt(x * x + bend * v.squaredNorm()));
+    const Vec2 middle = 0.5 * (from.point + reach * from.tangent + to.point - reach * to.tangent);
+    const Vec2 between = (v - reach * both).normalized();
+    return {Segment{from.point, middle, bulge(from.tangent, middle - from.point)},
+            Segment{middle, to.point, bulge(between, to.point - middle)}};
+}
+
 std::vector<Segment> segments(const Path& path)
 {
     std::vector<Segment> result;

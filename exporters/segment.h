@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -58,6 +59,17 @@ std::vector<Vec2> carrier_crossings(const Segment& s, const Segment& t);
 //! \brief Where two segments meet, as fractions on each; ends count, within 1e-9 mm. \pre arcs are at most half
 //! circles.
 std::vector<std::pair<double, double>> crossings(const Segment& s, const Segment& t);
+
+//! A place and the unit tangent there.
+struct Heading
+{
+    Vec2 point;
+    Vec2 tangent;
+};
+
+//! \brief The pair of arcs that leave and arrive as given and are tangent where they meet; both ends' tangents reach
+//! equally far to the common one.
+std::array<Segment, 2> biarc(const Heading& from, const Heading& to);
 
 //! \brief A path's segments in order, without those of no length.
 std::vector<Segment> segments(const Path& path);
