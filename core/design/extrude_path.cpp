@@ -12,7 +12,7 @@ namespace {
 
 constexpr double follows = 0.8660254037844386; // cosine of 30 degrees
 constexpr int max_periods = 200;
-constexpr int trial_iterations = 200; // a candidate that needs more is passed over
+constexpr int trial_iterations = 2000; // a candidate that needs more is passed over
 constexpr int embedded_choices = 8;   // candidates that are embedded before the best of them is taken
 
 int next_serial(const Surface& surface)
