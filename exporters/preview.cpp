@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "exporters/preview_html.h"
 #include "exporters/preview_model.h"
 
 namespace rhombloom {
@@ -103,6 +104,14 @@ Expected<PreviewFiles> preview_files(const Replay& replay, const AssemblyPlan& p
     if (!compressed) {
         return tl::make_unexpected(compressed.error());
     }
+    const Expected<PreviewSteps> steps = preview_steps(replay, plan, element);
+    if (!steps) {
+        return tl::make_unexpected(steps.error());
+    }
+    Expected<PreviewPage> page = preview_page(model, *steps, element, options);
+    if (!page) {
+        return tl::make_unexpected(page.error());
+    }
     Expected<std::string> picture = picture_png(model.bent, thumbnail_options(options));
     if (!picture) {
         return tl::make_unexpected(picture.error());
@@ -111,9 +120,12 @@ Expected<PreviewFiles> preview_files(const Replay& replay, const AssemblyPlan& p
     result.report.max_position_error_mm = compressed->max_error_mm;
     result.files["preview.glb"] = compressed->bytes;
     result.files["preview-plain.glb"] = plain_glb(model, options);
+    result.files["preview.html"] = std::move(page->html);
     result.files["thumbnail.png"] = std::move(*picture);
     result.report.glb_bytes = result.files["preview.glb"].size();
     result.report.plain_bytes = result.files["preview-plain.glb"].size();
+    result.report.html_position_error_mm = page->max_error_mm;
+    result.report.html_bytes = result.files["preview.html"].size();
     result.report.thumbnail_bytes = result.files["thumbnail.png"].size();
     return result;
 }
