@@ -175,12 +175,16 @@ const axes = () => {
   const right = [Math.cos(camera.yaw), Math.sin(camera.yaw), 0];
   return { back, right, up: cross(back, right), eye: back.map((b, r) => camera.target[r] + b * camera.distance) };
 };
-const tangent = () => Math.tan(0.21) * Math.max(1, canvas.clientHeight / Math.max(1, canvas.clientWidth));
+const tangent = () => Math.tan(0.21) * Math.max(1 / (1 - covered()), canvas.clientHeight / Math.max(1, canvas.clientWidth));
+// The model stands in the part of the screen that the controls leave free.
+const covered = () => Math.min(.45, $('footer').offsetHeight / Math.max(1, canvas.clientHeight));
 const matrix = a => {
   const near = Math.max(1, camera.distance - 4 * radius), far = camera.distance + 6 * radius, t = tangent(), aspect = canvas.width / canvas.height;
   const rows = [a.right.map(v => v / (t * aspect)), a.up.map(v => v / t), a.back.map(v => -v * (far + near) / (far - near)), a.back.map(v => -v)];
   const offset = [0, 0, 2 * far * near / (near - far), 0];
   const m = new Float32Array(16);
+  const shift = covered();
+  rows[1] = rows[1].map((v, c) => v + shift * rows[3][c]);
   rows.forEach((row, r) => { row.forEach((v, c) => { m[4 * c + r] = v; }); m[12 + r] = offset[r] - dot(row, a.eye); });
   return m;
 };
@@ -225,6 +229,12 @@ const upload = (e, flatness, lift) => {
   gl.bindBuffer(gl.ARRAY_BUFFER, pointBuffer);
   gl.bufferSubData(gl.ARRAY_BUFFER, 12 * n * e, P.subarray(3 * n * e, 3 * n * (e + 1)));
 };
+// Turn far enough that an element on the far side comes into sight.
+const face = e => {
+  const d = unitVector(middles[e].map((v, r) => v - centre[r])), a = axes();
+  if (dot(d, a.back) > .35 || Math.hypot(d[0], d[1]) < .2) return;
+  camera.yaw = Math.atan2(d[0], -d[1]) - .4;
+};
 let moving = -1;
 const settle = () => { cancelAnimationFrame(state.motion); if (moving >= 0) upload(moving, 0, 0); moving = -1; };
 const animate = (e, away) => {
@@ -254,6 +264,7 @@ const show = (step, silent) => {
     `Finished: ${head.final} elements`;
   if (!silent) { try { history.replaceState(null, '', s ? '#step=' + state.step : '#'); } catch { /* some browsers refuse it for files */ } }
   settle();
+  if (s) face(s[1]);
   if (s && s[0] < 2) animate(s[1], s[0] === 1);
   redraw();
 };
@@ -291,7 +302,7 @@ const choose = e => {
 // The element under a place of the screen: a ray against all visible triangles.
 const pick = (x, y) => {
   const box = canvas.getBoundingClientRect(), a = axes(), t = tangent();
-  const sx = (2 * (x - box.left) / box.width - 1) * t * box.width / box.height, sy = (1 - 2 * (y - box.top) / box.height) * t;
+  const sx = (2 * (x - box.left) / box.width - 1) * t * box.width / box.height, sy = (1 - 2 * (y - box.top) / box.height - covered()) * t;
   const d = a.right.map((r, k) => r * sx + a.up[k] * sy - a.back[k]);
   let best = Infinity, found = -1;
   for (let e = 0; e < N; ++e) {

@@ -1,0 +1,77 @@
+#include "exporters/gltf.h"
+
+#include <gtest/gtest.h>
+
+#include "exporters/draco_mesh.h"
+
+namespace rhombloom {
+namespace {
+
+DracoMesh grid(int n)
+{
+    DracoMesh mesh;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            mesh.points.emplace_back(0.01F * static_cast<float>(i), 0.01F * static_cast<float>(j),
+                                     0.003F * static_cast<float>((i * j) % 7));
+            mesh.normals.emplace_back(0.F, 0.F, 1.F);
+            mesh.order.push_back(static_cast<std::uint16_t>(i * n + j));
+            if (i + 1 < n && j + 1 < n) {
+                mesh.triangles.push_back({i * n + j, (i + 1) * n + j, i * n + j + 1});
+            }
+        }
+    }
+    return mesh;
+}
+
+TEST(Draco, KeepsTheTolerance)
+{
+    const DracoMesh mesh = grid(30);
+    for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+        const DracoStream stream = *compress(mesh, quantisation_bits(extent(mesh.points), tolerance), 8);
+        ASSERT_FALSE(stream.decoded.points.empty());
+        for (std::size_t i = 0; i < stream.decoded.points.size(); ++i) {
+            const auto& truth = mesh.points[stream.decoded.order[i]];
+            EXPECT_LE((stream.decoded.points[i] - truth).norm(), tolerance);
+        }
+    }
+}
+
+TEST(Draco, SpendsNoBitTooMany)
+{
+    EXPECT_GT(std::sqrt(3.0) * 0.3 / (2 * (std::exp2(quantisation_bits(0.3, 5e-5) - 1) - 1)), 5e-5 * 0.97);
+}
+
+TEST(Gltf, FileHasItsLengthAndItsChunks)
+{
+    Glb glb = make_glb("t");
+    add_points(glb, {{1, 2, 3}, {4, 5, 6}});
+    const std::string bytes = glb_bytes(glb);
+    const auto word = [&](std::size_t at) {
+        return static_cast<unsigned char>(bytes[at]) | static_cast<unsigned char>(bytes[at + 1]) << 8 |
+               static_cast<unsigned char>(bytes[at + 2]) << 16 | static_cast<unsigned char>(bytes[at + 3]) << 24;
+    };
+    EXPECT_EQ(bytes.substr(0, 4), "glTF");
+    EXPECT_EQ(word(8), static_cast<int>(bytes.size()));
+    const int json = word(12);
+    EXPECT_EQ(bytes.substr(16, 4), "JSON");
+    EXPECT_EQ(json % 4, 0);
+    EXPECT_EQ(word(20 + json), 24);
+    EXPECT_EQ(bytes.substr(24 + json, 4), std::string("BIN\0", 4));
+    EXPECT_EQ(static_cast<int>(bytes.size()), 28 + json + 24);
+}
+
+TEST(Gltf, FloatsAreShort)
+{
+    EXPECT_EQ(nlohmann::json(short_float(0.1F)).dump(), "0.1");
+    EXPECT_EQ(static_cast<float>(short_float(0.04027525F)), 0.04027525F);
+    EXPECT_EQ(short_float(-0.F), 0);
+}
+
+TEST(Gltf, MillimetresZUpBecomeMetresYUp)
+{
+    EXPECT_LT((to_gltf(Vec3(1000, 2000, 3000)) - Eigen::Vector3f(1, 3, -2)).norm(), 1e-6);
+}
+
+} // namespace
+} // namespace rhombloom
