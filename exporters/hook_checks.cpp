@@ -78,7 +78,7 @@ HookCheck web(const HookParameters& p, const Path& outline)
                   "make the finger width larger"});
 }
 
-HookCheck throat(const HookParameters& p, double strain_limit)
+HookCheck throat(const HookParameters& p, double finger_strain_limit)
 {
     const double limit = 0.1;
     const double clearance = p.slit - p.thickness;
@@ -88,7 +88,7 @@ HookCheck throat(const HookParameters& p, double strain_limit)
                                   ", else the finger lifts by " + mm(2 * p.thickness) + " with a strain of " +
                                   percent(100 * lift);
     return entry("C3", "throat", "mm",
-                 {clearance >= limit - 1e-9 && lift <= strain_limit, clearance, limit,
+                 {clearance >= limit - 1e-9 && lift <= finger_strain_limit, clearance, limit,
                   "the slit of " + mm(p.slit) + " leaves " + mm(clearance) + " beside a sheet of " + mm(p.thickness) +
                       " (" + mm(limit) + " needed); " + threading,
                   "make the slit clearance or the finger length larger"});
@@ -187,16 +187,22 @@ Strains strains(const HookParameters& p)
             p.thickness * rest.slope / (2 * engagement(p))};
 }
 
-HookCheck strain(const HookParameters& p, double strain_limit)
+HookCheck strain(const HookParameters& p, const HookCheckOptions& options)
 {
     const Strains s = strains(p);
-    const double value = 100 * std::max({s.bowed, s.inserted, s.finger});
+    const double side = std::max(s.bowed, s.inserted);
+    const bool side_ok = side <= options.strain_limit;
+    const bool finger_ok = s.finger <= options.finger_strain_limit;
+    const bool finger_is_worse = s.finger / options.finger_strain_limit > side / options.strain_limit;
     return entry("C10", "bending strain", "%",
-                 {value <= 100 * strain_limit, value, 100 * strain_limit,
-                  "the sheet is strained by " + percent(100 * s.bowed) + " when bowed, " + percent(100 * s.inserted) +
-                      " while an end is inserted and " + percent(100 * s.finger) +
-                      " in the fingers; the material bears " + percent(100 * strain_limit),
-                  "make lb shorter, the finger length larger or the sheet thinner"});
+                 {side_ok && finger_ok, 100 * (finger_is_worse ? s.finger : side),
+                  100 * (finger_is_worse ? options.finger_strain_limit : options.strain_limit),
+                  "the sheet is strained by " + percent(100 * s.bowed) + " when bowed and " +
+                      percent(100 * s.inserted) + " while an end is inserted (it bears " +
+                      percent(100 * options.strain_limit) + "), and by " + percent(100 * s.finger) +
+                      " in the fingers (" + percent(100 * options.finger_strain_limit) + ")",
+                  side_ok ? "make the finger length larger, lb shorter or the sheet thinner"
+                          : "make lb shorter or the sheet thinner"});
 }
 
 HookCheck flip(const HookParameters& p, const Path& outline)
@@ -272,14 +278,14 @@ std::vector<HookCheck> hook_checks(const HookParameters& parameters, const HookC
     }
     return {contour(*outline),
             web(parameters, *outline),
-            throat(parameters, options.strain_limit),
+            throat(parameters, options.finger_strain_limit),
             kerf(parameters, *outline, options.kerf),
             engagement_check(parameters),
             node_clearance(parameters),
             corner(parameters),
             tips_apart(parameters),
             bow_check(parameters),
-            strain(parameters, options.strain_limit),
+            strain(parameters, options),
             flip(parameters, *outline),
             certificate(parameters, *outline),
             bowed(parameters, *outline)};

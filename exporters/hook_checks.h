@@ -23,7 +23,8 @@ struct HookCheck
 struct HookCheckOptions
 {
     Kerf kerf;
-    double strain_limit = 0.03; //!< of the material
+    double strain_limit = 0.03;        //!< of the material when a long side is bowed or inserted
+    double finger_strain_limit = 0.03; //!< of the material in a finger (C3, C10)
 };
 
 //! \brief The checks C1 to C13, in this order, for the actual parameters; C1, C2, C12 and C13 on the real outline.

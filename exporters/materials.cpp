@@ -16,6 +16,7 @@ Material read_material(const nlohmann::json& json)
     m.thickness = json.at("thickness_mm");
     m.density = json.at("density_g_cm3");
     m.strain_limit = json.at("strain_limit");
+    m.finger_strain_limit = json.at("finger_strain_limit");
     m.max_temperature = json.at("max_temperature_C");
     m.sides_alike = json.at("sides_alike");
     m.heat = json.at("heat");

@@ -66,7 +66,7 @@ PieceParameters piece(const Material& material, double la, double kerf)
 bool buildable(const Material& material, double la)
 {
     const PieceParameters parameters = piece(material, la, laser.kerf);
-    return check(parameters.hook, {parameters.kerf, material.strain_limit}).has_value();
+    return check(parameters.hook, {parameters.kerf, material.strain_limit, material.finger_strain_limit}).has_value();
 }
 
 void append_sheets(std::vector<ScadPreset>& presets, const Material& material, double la)

@@ -4,6 +4,7 @@
 
 #include "clipper_tools.h"
 #include "exporters/hook_measures.h"
+#include "exporters/materials.h"
 #include "exporters/parameter_table.h"
 #include "table_elements.h"
 
@@ -131,7 +132,7 @@ TEST(HookChecks, ABrokenParameterFailsItsOwnCheckAndSaysWhatToChange)
         {"C7", {{"alpha", 50}, {"hole_radius", 2.5}}, "make the hole radius"},
         {"C8", {{"finger_length", 17}}, "make the finger width or the finger length smaller"},
         {"C9", {{"lb", 116}}, "make lb shorter"},
-        {"C10", {{"lb", 95}}, "make lb shorter"},
+        {"C10", {{"lb", 95}}, "make the finger length larger, lb shorter"},
         {"C12", {{"seat_clearance", 0.5}, {"barb", 0.05}}, "make the barb larger"},
         {"C12", {{"neck_setback", 1.5}}, "make the neck setback smaller"},
     };
@@ -202,10 +203,25 @@ TEST(HookChecks, RigidEndsThatOverlapCrossInThePlanView)
 TEST(HookChecks, CardBearsLessStrainThanPolypropylene)
 {
     HookCheckOptions card;
-    card.strain_limit = 0.01;
+    card.strain_limit = 0.005;
     EXPECT_FALSE(check(hook_parameters(Element{}), card));
     EXPECT_EQ(check(hook_parameters(Element{}), card).error().message.find("hook check C10 (bending strain): "), 0u);
     EXPECT_TRUE(check(hook_parameters(Element{})));
+    card = {};
+    card.finger_strain_limit = 0.01;
+    EXPECT_NE(check(hook_parameters(Element{}), card).error().message.find("2.3 % in the fingers (1 %)"),
+              std::string::npos);
+}
+
+TEST(HookChecks, TheDefaultElementCanBeMadeOfEveryPresetUpToHalfAMillimetre)
+{
+    const std::vector<Material> presets = *materials();
+    for (const Material& material : presets) {
+        Element element;
+        element.thickness = material.thickness;
+        const HookCheckOptions options{{}, material.strain_limit, material.finger_strain_limit};
+        EXPECT_EQ(check(hook_parameters(element), options).has_value(), material.thickness <= 0.5) << material.name;
+    }
 }
 
 // Thick sheets on small pieces are the strain check's matter: the material's limit is set aside here.
@@ -213,6 +229,7 @@ TEST(HookChecks, TheCornersOfTheRangePass)
 {
     HookCheckOptions options;
     options.strain_limit = 0.12;
+    options.finger_strain_limit = 0.12;
     for (const double la : {40.0, 200.0}) {
         for (const double alpha : {50.0, 80.0}) {
             for (const double t : {0.2, 0.8}) {

@@ -15,6 +15,7 @@ TEST(Materials, AllPresetsHaveWhatTheKitStates)
         EXPECT_TRUE(m.thickness >= 0.2 && m.thickness <= 0.8) << m.name;
         EXPECT_TRUE(m.density > 0.3 && m.density < 2) << m.name;
         EXPECT_TRUE(m.strain_limit >= 0.005 && m.strain_limit <= 0.05) << m.name;
+        EXPECT_TRUE(m.finger_strain_limit >= m.strain_limit && m.finger_strain_limit <= 0.05) << m.name;
         EXPECT_FALSE(m.title.empty() || m.heat.empty()) << m.name;
         EXPECT_FALSE(m.laser.empty() && m.knife.empty()) << m.name;
     }
@@ -30,7 +31,7 @@ TEST(Materials, AnUnknownNameIsRefusedWithTheKnownOnes)
     const auto refused = material("pp");
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message.find("\"pp\" is unknown"), std::string::npos);
-    EXPECT_NE(refused.error().message.find("veneer-0.6"), std::string::npos);
+    EXPECT_NE(refused.error().message.find("veneer-0.5"), std::string::npos);
 }
 
 TEST(Materials, AMissingOrBrokenFileIsRefusedWithItsPath)
