@@ -29,16 +29,8 @@ struct Writer
 
     void front() const
     {
-        page("Cover", [&] {
-            canvas.destination("cover");
-            canvas.bookmark(0, title, "cover");
-            draw_cover(canvas, sources, title, options);
-        });
-        page("2", [&] {
-            canvas.destination("how-to-read");
-            canvas.bookmark(0, "How to read this booklet", "how-to-read");
-            draw_how_to_read(canvas, sources);
-        });
+        page("Cover", [&] { draw_cover(canvas, sources, title, options); });
+        page("2", [&] { draw_how_to_read(canvas, sources); });
         page("3", [&] { draw_parts(canvas, sources, options); });
         page("4", [&] { draw_joint(canvas, sources); });
     }

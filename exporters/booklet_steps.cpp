@@ -187,8 +187,7 @@ void StepDrawer::State::draw_words(int k)
         canvas.fill({low, low + Vec2(width - 2, 0), low + Vec2(width - 2, 26), low + Vec2(0, 26)}, 0xFBE9B7);
     }
     canvas.tagged("H2", [&] {
-        canvas.text("Step", box.min + Vec2(8, 26), {10, 0x505050, Align::Left, 0});
-        canvas.text(" " + std::to_string(k + 1), box.min + Vec2(30, 26), {26, 0x000000, Align::Left, 0});
+        canvas.text("Step " + std::to_string(k + 1), box.min + Vec2(8, 25), {21, 0x000000, Align::Left, 0});
     });
     canvas.tagged("P", [&] {
         canvas.paragraph(step_words(sources, k, names), box.min + Vec2(8, 42), width - 16, {9, 0x202020}, 11.5);

@@ -26,9 +26,10 @@ public:
                 high = high.cwiseMax(p);
             }
         }
-        scale_ = size / std::max(1e-9, (high - low).maxCoeff());
+        size_ = std::clamp(60 + 2 * static_cast<int>(faces.size()), 80, 320);
+        scale_ = size_ / std::max(1e-9, (high - low).maxCoeff());
         low_ = low;
-        pixels_.resize(size * size);
+        pixels_.resize(static_cast<std::size_t>(size_) * size_);
         for (int i = 0; i < static_cast<int>(faces.size()); ++i) {
             add(scene, faces[i], i);
         }
@@ -40,8 +41,6 @@ public:
     const std::vector<Layers>& pixels() const { return pixels_; }
 
 private:
-    static constexpr int size = 320;
-
     void add(const Scene& scene, Face f, int index)
     {
         const Quad q = quad(*scene.surface, f);
@@ -62,7 +61,7 @@ private:
             return;
         }
         const auto low = [&](int i) { return std::max(0, static_cast<int>(std::min({a[i], b[i], c[i]}))); };
-        const auto high = [&](int i) { return std::min(size - 1, static_cast<int>(std::max({a[i], b[i], c[i]}))); };
+        const auto high = [&](int i) { return std::min(size_ - 1, static_cast<int>(std::max({a[i], b[i], c[i]}))); };
         for (int y = low(1); y <= high(1); ++y) {
             for (int x = low(0); x <= high(0); ++x) {
                 const Vec2 p(x + 0.5, y + 0.5);
@@ -70,12 +69,13 @@ private:
                 const double w = ((b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x())) / area;
                 if (v >= 0 && w >= 0 && v + w <= 1) {
                     const double z = a.z() + v * (b.z() - a.z()) + w * (c.z() - a.z());
-                    pixels_[y * size + x].emplace_back(static_cast<float>(z), index);
+                    pixels_[y * size_ + x].emplace_back(static_cast<float>(z), index);
                 }
             }
         }
     }
 
+    int size_ = 0;
     double scale_ = 1;
     Vec2 low_ = Vec2::Zero();
     std::vector<Layers> pixels_;

@@ -195,14 +195,15 @@ void set_alternatives(QPDFObjectHandle node, const std::vector<std::string>& tex
     set_alternatives(node.getKey("/K"), texts, next);
 }
 
-std::string written(QPDF& pdf)
+//! \param repack compress again, as well as can be; not worth it for what was copied from a packed file.
+std::string written(QPDF& pdf, bool repack)
 {
     Pl_Flate::setCompressionLevel(9);
     QPDFWriter writer(pdf);
     writer.setOutputMemory();
     writer.setObjectStreamMode(qpdf_o_disable); // PDF/A-1 is PDF 1.4
     writer.setDecodeLevel(qpdf_dl_generalized);
-    writer.setRecompressFlate(true);
+    writer.setRecompressFlate(repack);
     writer.setCompressStreams(true);
     writer.forcePDFVersion("1.4");
     writer.setDeterministicID(true);
@@ -229,7 +230,7 @@ std::string finish_pdf(const std::string& bytes, const DocumentInfo& info)
     for (QPDFPageObjectHelper page : QPDFPageDocumentHelper(pdf).getAllPages()) {
         page.getObjectHandle().replaceKey("/Tabs", name("/S"));
     }
-    return written(pdf);
+    return written(pdf, true);
 }
 
 namespace {
@@ -293,7 +294,7 @@ std::string impose_pdf(const std::string& bytes, Paper paper, const std::string&
     set_info(target, info);
     set_metadata(target, info);
     set_catalogue(target, info);
-    return written(target);
+    return written(target, false);
 }
 
 } // namespace rhombloom

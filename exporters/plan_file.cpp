@@ -173,16 +173,20 @@ std::string plan_json(const Replay& replay, const Element&, const AssemblyPlan& 
         const Step& step = plan.steps[k];
         const StepPlace& place = layout.places[k];
         const auto found = std::find(stages.begin(), stages.end(), step.stage);
-        document["steps"].push_back({{"op", name(step.kind)},
-                                     {"element", step.element},
-                                     {"joins", joins(step)},
-                                     {"component", replay.surface.components[step.component]},
-                                     {"shape", found == stages.end() ? Json("final") : Json(found - stages.begin())},
-                                     {"page", place.page},
-                                     {"cell", place.cell},
-                                     {"view", matrix(page_matrix(place.camera, place.centre, layout.paper.height))},
-                                     {"turn", turn(place.turn)},
-                                     {"inset", inset(place.inset, layout.paper.height)}});
+        document["steps"].push_back(
+            {{"op", name(step.kind)},
+             {"element", step.element},
+             {"joins", joins(step)},
+             {"component", replay.surface.components[step.component]},
+             {"shape", found == stages.end() ? Json("final") : Json(found - stages.begin())},
+             {"page", place.page},
+             {"cell", place.cell},
+             {"cell_pt",
+              {rounded(place.box.min.x(), 1e-3), rounded(layout.paper.height - place.box.max.y(), 1e-3),
+               rounded(place.box.max.x(), 1e-3), rounded(layout.paper.height - place.box.min.y(), 1e-3)}},
+             {"view", matrix(page_matrix(place.camera, place.centre, layout.paper.height))},
+             {"turn", turn(place.turn)},
+             {"inset", inset(place.inset, layout.paper.height)}});
     }
     for (const int stage : stages) {
         document["shapes"].push_back(shape(replay, plan, stage));
