@@ -384,7 +384,9 @@ Expected<PreviewPage> preview_page(const PreviewModel& model, const PreviewSteps
     all.elements.insert(all.elements.end(), steps.temporary.begin(), steps.temporary.end());
     const BendingModes modes = bending_modes(all, 0.6 * options.tolerance_mm, most_modes);
     const double reach = std::max(element.lb + element.la, modes.mean.cwiseAbs().maxCoeff());
-    const PackedShapes packed = pack(modes, all.elements, 0.2 * options.tolerance_mm, reach);
+    // Where the modes are not enough, rounding need not be finer than what they leave out.
+    const double step = std::max(0.2 * options.tolerance_mm, error_mm(modes, all) / 6);
+    const PackedShapes packed = pack(modes, all.elements, step, reach);
     const Json head = header(model, steps, packed, element, options);
     const Expected<std::string> html = assembled(model.title.empty() ? "rhombloom preview" : model.title,
                                                  payload(model, steps, head, packed, modes, all.elements));

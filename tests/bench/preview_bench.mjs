@@ -1,0 +1,57 @@
+// usage: node preview_bench.mjs PROGRAM DESIGN...   (first: npm ci in this folder)
+// preview.glb against the optimisers of preview-plain.glb: element names kept, largest position error at most 0.05 mm.
+import { execFileSync } from 'node:child_process';
+import fs from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const [program, ...designs] = process.argv.slice(2);
+const bin = path.join(path.dirname(fileURLToPath(import.meta.url)), 'node_modules', '.bin');
+const tolerance = 0.05e-3;
+
+function timed(command, args) {
+  const start = process.hrtime.bigint();
+  execFileSync(command, args, { stdio: ['ignore', 'ignore', 'ignore'] });
+  return Number(process.hrtime.bigint() - start) / 1e9;
+}
+
+function document_of(file) {
+  const bytes = fs.readFileSync(file);
+  return JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)));
+}
+
+// The widest mesh decides the bits, as for our own files.
+function bits_for(file) {
+  const json = document_of(file);
+  const extents = json.meshes.flatMap(m => m.primitives).map(p => json.accessors[p.attributes.POSITION]).map(a => Math.max(...a.max.map((v, k) => v - a.min[k])));
+  return Math.ceil(Math.log2(Math.max(...extents) * Math.sqrt(3) / (2 * tolerance) + 1));
+}
+
+for (const design of designs) {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'preview-bench-'));
+  const ours = timed(program, ['fabricate', design, '-o', path.join(folder, 'kit'), '--only', 'preview']);
+  const plain = path.join(folder, 'kit', 'preview-plain.glb'), out = path.join(folder, 'out.glb');
+  const bits = String(bits_for(plain)), wide = String(Math.min(16, +bits + 3));
+  const count = document_of(plain).nodes.length;
+  console.log(`${path.basename(design)}: ${count} elements, preview-plain.glb ${fs.statSync(plain).size} bytes; ${bits} bits per coordinate and element`);
+  console.log(`  ${'rhombloom (all four preview files)'.padEnd(46)} ${String(fs.statSync(path.join(folder, 'kit', 'preview.glb')).size).padStart(9)} bytes ${ours.toFixed(2).padStart(7)} s`);
+  const rivals = [
+    ['gltf-transform draco', 'gltf-transform', ['draco', plain, out, '--quantize-position', bits, '--quantize-normal', '8', '--encode-speed', '0', '--decode-speed', '0']],
+    ['gltf-transform meshopt', 'gltf-transform', ['meshopt', plain, out, '--level', 'high', '--quantize-position', bits, '--quantize-normal', '8']],
+    ['gltfpack -cc -kn -ke', 'gltfpack', ['-i', plain, '-o', out, '-cc', '-kn', '-ke', '-vp', wide, '-vn', '8']],
+    ['gltf-pipeline -d', 'gltf-pipeline', ['-i', plain, '-o', out, '-d', '--draco.compressionLevel', '10', '--draco.quantizePositionBits', bits, '--draco.quantizeNormalBits', '8']],
+  ];
+  for (const [name, tool, args] of rivals) {
+    let line;
+    try {
+      const time = timed(path.join(bin, tool), args);
+      line = `${String(fs.statSync(out).size).padStart(9)} bytes ${time.toFixed(2).padStart(7)} s`;
+      fs.rmSync(out);
+    } catch (error) {
+      line = 'failed: ' + String(error.message).split('\n')[0];
+    }
+    console.log('  ' + name.padEnd(46) + ' ' + line);
+  }
+  fs.rmSync(folder, { recursive: true });
+}
