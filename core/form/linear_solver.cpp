@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cstring>
 #include <numeric>
 
 #include "core/expected.h"
@@ -191,7 +190,7 @@ double LinearSolver::Factor::total_work() const
 void LinearSolver::Factor::assemble_matrix(const BlockMatrix& matrix, double shift, int f)
 {
     double* panel = panels.data();
-    std::memset(panel + panel_offset[f], 0, sizeof(double) * shapes[f].panel_size());
+    std::fill_n(panel + panel_offset[f], shapes[f].panel_size(), 0.0);
     for (std::size_t t = first_target[f]; t < first_target[f + 1]; ++t) {
         const BlockTarget& target = targets[t];
         const double* block = &matrix.value[9 * target.block];
@@ -273,7 +272,7 @@ bool LinearSolver::Factor::factor_fronts(const BlockMatrix& matrix, double shift
         const FrontShape& shape = shapes[f];
         double* own = stack_top;
         double* bottom = own;
-        std::memset(own, 0, sizeof(double) * shape.update_size());
+        std::fill_n(own, shape.update_size(), 0.0);
         assemble_matrix(matrix, shift, f);
         for (const int child : children[f]) {
             assemble_child(f, child, own);
@@ -286,7 +285,7 @@ bool LinearSolver::Factor::factor_fronts(const BlockMatrix& matrix, double shift
             return false;
         }
         subtract_update(f, own, helpers);
-        std::memmove(bottom, own, sizeof(double) * shape.update_size());
+        std::copy_n(own, shape.update_size(), bottom); // downwards: the ranges may overlap
         update[f] = bottom;
         stack_top = bottom + shape.update_size();
     }
