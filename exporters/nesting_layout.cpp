@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "exporters/nesting_improve.h"
 #include "exporters/nesting_rows.h"
 
 namespace rhombloom::nesting {
@@ -28,11 +29,7 @@ Layout first_copies(const Piece& piece, const Layout& full, int count, int axis)
 
 double extent_of(const Layout& layout, const Piece& piece, int axis)
 {
-    double extent = 0;
-    for (const Placement& placement : layout) {
-        extent = std::max(extent, upper_right(placement, piece)[axis]);
-    }
-    return extent;
+    return upper_right(layout, piece)[axis];
 }
 
 Room cut_to(const Room& room, double extent, int axis)
@@ -94,6 +91,15 @@ std::vector<double> fitting_angles(const Piece& piece)
 
 } // namespace
 
+Vec2 upper_right(const Layout& layout, const Piece& piece)
+{
+    Vec2 corner = Vec2::Zero();
+    for (const Placement& placement : layout) {
+        corner = corner.cwiseMax(upper_right(placement, piece));
+    }
+    return corner;
+}
+
 Layout single_copy(const Piece& piece, const Room& room)
 {
     for (const double angle : fitting_angles(piece)) {
@@ -115,8 +121,14 @@ Layout densest_layout(const Piece& piece, const Room& room)
             best = std::move(layout);
         }
     }
-    Layout rows = best_rows(piece, room, best.size());
-    return rows.empty() ? best : rows;
+    for (const auto search : {best_rows, best_blocks}) {
+        Layout layout = search(piece, room, best.size());
+        if (!layout.empty()) {
+            best = std::move(layout);
+        }
+        fprintf(stderr, "%zu %f\n", best.size(), clock() / 1e6);
+    }
+    return topped_up(piece, room, best);
 }
 
 Layout packed_layout(const Piece& piece, const Room& room, const Layout& full, int count)

@@ -13,6 +13,7 @@ struct Piece
     Polygon inflated; //!< by half the spacing: what must not overlap
     NoFit self;       //!< offsets at which a copy overlaps an equally turned one
     NoFit turned;     //!< offsets at which a copy turned by 180 degrees overlaps a drawn one
+    double spacing = 0;
     Grain grain = Grain::Any;
     Mirror mirror = Mirror::Never;
     std::vector<Pattern> patterns; //!< densest first
@@ -25,10 +26,14 @@ struct Trial
 {
     const Pattern* pattern = nullptr;
     double angle = 0;
+    bool even = false; //!< one of even steps, not one that lays the pattern along a side
 };
 
 //! \brief What is worth trying in a room, most promising first; fewer trials when a sheet takes many copies.
 std::vector<Trial> trials_for(const Piece& piece, const Room& room);
+
+//! \brief The upper right corner of all copies' common bounds.
+Vec2 upper_right(const Layout& layout, const Piece& piece);
 
 //! \brief One copy in an allowed direction, or nothing when it fits in none.
 Layout single_copy(const Piece& piece, const Room& room);

@@ -92,10 +92,10 @@ std::vector<double> aligned_angles(const Pattern& pattern)
     return angles;
 }
 
-void add_trials(const Pattern& pattern, const std::vector<double>& angles, std::vector<Trial>& trials)
+void add_trials(const Pattern& pattern, const std::vector<double>& angles, bool even, std::vector<Trial>& trials)
 {
     for (const double angle : angles) {
-        trials.push_back({&pattern, angle});
+        trials.push_back({&pattern, angle, even});
     }
 }
 
@@ -118,6 +118,7 @@ Piece piece_of(const Polygon& outline, const NestOptions& options)
     piece.inflated = simplified_outward(piece.inflated, simplification);
     piece.self = no_fit(piece.inflated, piece.inflated);
     piece.turned = no_fit(piece.inflated, oriented(piece.inflated, {pi, false}));
+    piece.spacing = options.spacing;
     piece.grain = options.grain;
     piece.mirror = options.mirror;
     piece.patterns = patterns_of(piece);
@@ -136,12 +137,12 @@ std::vector<Trial> trials_for(const Piece& piece, const Room& room)
     for (std::size_t i = 0; i < piece.patterns.size() && trials.size() < most; ++i) {
         const Pattern& pattern = piece.patterns[i];
         if (piece.grain != Grain::Any) {
-            trials.push_back({&pattern, 0});
+            trials.push_back({&pattern, 0, false});
             continue;
         }
-        add_trials(pattern, aligned_angles(pattern), trials);
+        add_trials(pattern, aligned_angles(pattern), false, trials);
         if (i % 4 == 0 && i < 160) {
-            add_trials(pattern, even, trials);
+            add_trials(pattern, even, true, trials);
         }
     }
     trials.resize(std::min(trials.size(), most));
