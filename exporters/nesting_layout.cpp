@@ -126,7 +126,6 @@ Layout densest_layout(const Piece& piece, const Room& room)
         if (!layout.empty()) {
             best = std::move(layout);
         }
-        fprintf(stderr, "%zu %f\n", best.size(), clock() / 1e6);
     }
     return topped_up(piece, room, best);
 }
