@@ -124,17 +124,7 @@ void choose_grid(const Replay& replay, const AssemblyPlan& plan, const BookletOp
 
 std::vector<Face> shown_faces(const Replay& replay, const AssemblyPlan& plan, int stage)
 {
-    std::vector<char> present(replay.surface.n_faces() + plan.temporary.size(), 0);
-    std::vector<char> shown(present.size(), 0);
-    for (const Step& step : plan.steps) {
-        present[step.element] = 1;
-        if (step.stage == stage) {
-            for (std::size_t e = 0; e < present.size(); ++e) {
-                shown[e] |= present[e];
-            }
-        }
-        present[step.element] = step.kind != StepKind::Remove;
-    }
+    const std::vector<char> shown = shown_elements(plan, replay.surface.n_faces(), stage);
     const std::vector<int> face = faces_of_elements(replay, plan, stage);
     std::vector<Face> result;
     for (std::size_t e = 0; e < shown.size(); ++e) {

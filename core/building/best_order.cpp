@@ -32,6 +32,9 @@ struct Search
 
     bool consider(const std::vector<char>& closed, const Taste& taste)
     {
+        if (!first_island(sources.history, closed).empty()) {
+            return false;
+        }
         AssemblyPlan plan = finish_plan(sources, greedy_order(sources, closed, taste), Order::Best);
         const double its_cost = cost(plan.scorecard, paper);
         if (its_cost >= best_cost - 1e-9) {
@@ -43,15 +46,25 @@ struct Search
     }
 };
 
+//! The fewest closings, earliest first, with which nothing that is built falls into islands.
+std::vector<char> needed_closings(const BuildHistory& history)
+{
+    std::vector<char> closed(history.targets.size(), 0);
+    for (auto island = first_island(history, closed); !island.empty(); island = first_island(history, closed)) {
+        closed[island.front()] = 1;
+    }
+    return closed;
+}
+
 //! Closes a target only where that pays.
 std::vector<char> choose_closings(Search& search, const Taste& taste)
 {
-    const std::size_t targets = search.sources.history.targets.size();
-    std::vector<char> closed(targets, 0);
+    std::vector<char> closed = needed_closings(search.sources.history);
     search.consider(closed, taste);
-    for (std::size_t t = 0; t + 1 < targets; ++t) {
+    for (std::size_t t = 0; t + 1 < closed.size(); ++t) {
+        const char needed = closed[t];
         closed[t] = 1;
-        if (!search.consider(closed, taste)) {
+        if (!needed && !search.consider(closed, taste)) {
             closed[t] = 0;
         }
     }

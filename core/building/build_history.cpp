@@ -212,6 +212,22 @@ std::vector<int> faces_of_elements(const Replay& replay, const AssemblyPlan& pla
     return result;
 }
 
+std::vector<char> shown_elements(const AssemblyPlan& plan, std::size_t final_count, int stage)
+{
+    std::vector<char> present(final_count + plan.temporary.size(), 0);
+    std::vector<char> shown(present.size(), 0);
+    for (const Step& step : plan.steps) {
+        present[step.element] = 1;
+        if (step.stage == stage) {
+            for (std::size_t e = 0; e < present.size(); ++e) {
+                shown[e] |= present[e];
+            }
+        }
+        present[step.element] = step.kind != StepKind::Remove;
+    }
+    return shown;
+}
+
 Target without(const Target& target, const std::vector<char>& left_out)
 {
     Target result = target;

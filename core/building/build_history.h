@@ -57,6 +57,9 @@ int last_stage(const Replay& replay);
 //! \brief The face of each element in a stage, or -1, for the numbering of a plan.
 std::vector<int> faces_of_elements(const Replay& replay, const AssemblyPlan& plan, int stage);
 
+//! \brief Which elements a stage's pictures show: those that are there during one of its steps. By element number.
+std::vector<char> shown_elements(const AssemblyPlan& plan, std::size_t final_count, int stage);
+
 //! \brief The same target without some elements and without the connections \p keep refuses.
 //! \details Used for shapes that are deliberately left open.
 Target without(const Target& target, const std::vector<char>& left_out);

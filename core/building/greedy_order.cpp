@@ -126,7 +126,49 @@ std::vector<char> left_open(const BuildHistory& history, std::size_t target, con
     return out;
 }
 
+bool connected(const Target& target)
+{
+    std::vector<int> open;
+    std::vector<char> reached(target.face.size(), 0);
+    std::size_t waiting = 0;
+    for (std::size_t e = 0; e < target.face.size(); ++e) {
+        waiting += target.has(static_cast<int>(e)) ? 1 : 0;
+        if (open.empty() && target.has(static_cast<int>(e))) {
+            open.push_back(static_cast<int>(e));
+            reached[e] = 1;
+        }
+    }
+    for (; !open.empty(); --waiting) {
+        const int e = open.back();
+        open.pop_back();
+        for (const Port& port : target.ports[e]) {
+            if (port.element >= 0 && !reached[port.element]) {
+                reached[port.element] = 1;
+                open.push_back(port.element);
+            }
+        }
+    }
+    return waiting == 0;
+}
+
 } // namespace
+
+std::vector<std::size_t> first_island(const BuildHistory& history, const std::vector<char>& closed)
+{
+    for (std::size_t t = 0; t < history.targets.size(); ++t) {
+        if (connected(without(history.targets[t], left_open(history, t, closed)))) {
+            continue;
+        }
+        std::vector<std::size_t> remedies;
+        for (std::size_t later = t; later + 1 < history.targets.size(); ++later) {
+            if (!closed[later]) {
+                remedies.push_back(later);
+            }
+        }
+        return remedies;
+    }
+    return {};
+}
 
 std::vector<Step> greedy_order(const PlanSources& sources, const std::vector<char>& closed, const Taste& taste)
 {

@@ -39,6 +39,10 @@ struct Taste
 //! \param closed by target: are its temporary elements built and removed again (else the shape stays open there)?
 std::vector<Step> greedy_order(const PlanSources& sources, const std::vector<char>& closed, const Taste& taste);
 
+//! \brief With these closings, does leaving out what will be removed again tear a target into islands? Then the targets
+//! that could be closed to mend it, nearest first; empty: nothing falls apart.
+std::vector<std::size_t> first_island(const BuildHistory& history, const std::vector<char>& closed);
+
 //! \brief The best plan found: several tastes and choices of what to close, scored (see the source).
 AssemblyPlan best_plan(const PlanSources& sources);
 

@@ -75,7 +75,8 @@ double minutes(const Step& step, bool hard)
     return 0.35 + 0.25 * joins + (joins == 1 ? 0.1 : 0) + (joins == 4 ? 0.4 : 0) + (hard ? 0.2 : 0);
 }
 
-//! By stage: does a face touch a vertex of negative defect?
+//! \brief By stage: does a face touch a vertex of negative defect, all of whose elements are there in that stage?
+//! \details Where an element is never built, the vertex lies on an open rim and is easy.
 class Hardness
 {
 public:
@@ -89,6 +90,13 @@ public:
         if (step.stage != stage_) {
             stage_ = step.stage;
             face_ = faces_of_elements(replay_, plan_, stage_);
+            shown_.assign(stage_surface(replay_, stage_).n_faces(), stage_ == last_stage(replay_));
+            const std::vector<char> elements = shown_elements(plan_, replay_.surface.n_faces(), stage_);
+            for (std::size_t e = 0; e < elements.size(); ++e) {
+                if (elements[e] && face_[e] >= 0) {
+                    shown_[face_[e]] = 1;
+                }
+            }
         }
         const Surface& surface = stage_surface(replay_, stage_);
         if (face_[step.element] < 0) {
@@ -96,16 +104,22 @@ public:
         }
         const Face f(face_[step.element]);
         return std::any_of(surface.cfv_begin(f), surface.cfv_end(f), [&](Vertex v) {
-            return !surface.is_boundary(v) && angular_defect(surface, element_, v) < -1e-9;
+            return !surface.is_boundary(v) && angular_defect(surface, element_, v) < -1e-9 && all_shown(surface, v);
         });
     }
 
 private:
+    bool all_shown(const Surface& surface, Vertex v) const
+    {
+        return std::all_of(surface.cvf_begin(v), surface.cvf_end(v), [&](Face f) { return shown_[f.idx()] != 0; });
+    }
+
     const Replay& replay_;
     const Element& element_;
     const AssemblyPlan& plan_;
     int stage_ = -1;
     std::vector<int> face_;
+    std::vector<char> shown_;
 };
 
 void count_insert(const Step& step, bool hard, Scorecard& score)

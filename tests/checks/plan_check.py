@@ -3,7 +3,8 @@ expects to be told. Run as: plan_check.py PROGRAM SOURCE_DIR, or plan_check.py -
 
 H1 every element but the first joins something        H2 one piece after every step
 H3 the end is the surface                             H4 only what is there is removed, and never an articulation
-H5 components are built one after the other           H6 no plug (four joins) at a vertex of negative defect
+H5 components are built one after the other           H6 no plug (four joins) at a vertex of negative defect,
+                                                          unless the whole hole lies at such vertices
 H7 the open sides left are the surface's boundary     steps = inserts + removals + unhooks + hooks
 """
 import copy
@@ -82,7 +83,7 @@ class Replay:
         self.count = len(surface["faces"])
         self.temporary = {t["element"] for t in plan["temporary"]}
         self.present, self.hooked, self.problems = set(), {}, []
-        self.chapters, self.chapter = set(), None
+        self.chapters, self.chapter, self.to_come = set(), None, set()
         self.score = dict.fromkeys(["steps", "inserts", "removals", "parts_needed", "exposure", "one_neighbour_inserts",
                                     "four_at_once_inserts", "negative_defect_inserts"], 0)
 
@@ -107,6 +108,30 @@ class Replay:
                 self.hooked.pop(here, None)
                 self.hooked.pop(there, None)
 
+    def rest_of_chapter(self, k, chapter):
+        rest = set()
+        for step in self.plan["steps"][k:]:
+            if step["op"] == "insert" and (str(step["shape"]), step["component"]) == chapter:
+                rest.add(step["element"])
+            elif step["op"] == "insert":
+                break
+        return rest
+
+    def easier_plug(self, e, shape):
+        """Did the hole that the chapter found round e hold an element at no vertex of negative defect? Components are
+        built one after the other (H5), so only the chapter's own elements could have been the plug instead."""
+        hole, stack = {e}, [e]
+        while stack:
+            f = stack.pop()
+            if f not in shape.hard:
+                return True
+            for side in range(4):
+                other = shape.ports.get((f, side))
+                if other and other[0] in self.to_come and other[0] not in hole:
+                    hole.add(other[0])
+                    stack.append(other[0])
+        return False
+
     def insert(self, k, step, shape):
         e, joins = step["element"], len(step["joins"])
         if e in self.present:
@@ -119,10 +144,11 @@ class Replay:
                    and p not in [(j["to"], j["to_side"]) for j in step["joins"]]]
         if missing and not all(self.hooked.get(p) for p in missing):
             self.complain(k, "joins", f"element {e} is left unhooked from {missing}")
-        everywhere_hard = set(shape.element_of) <= shape.hard
-        if joins == 4 and e in shape.hard and not everywhere_hard:
-            self.complain(k, "H6", f"element {e} is a plug at a vertex of negative defect")
         chapter = (str(step["shape"]), step["component"])
+        if chapter != self.chapter:
+            self.to_come = self.rest_of_chapter(k, chapter)
+        if joins == 4 and e in shape.hard and self.easier_plug(e, shape):
+            self.complain(k, "H6", f"element {e} is a plug at a vertex of negative defect")
         if chapter != self.chapter and chapter in self.chapters:
             self.complain(k, "H5", f"component {step['component']} is taken up again")
         self.chapter = chapter
