@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 #include "core/text.h"
 #include "exporters/coupon.h"
@@ -305,7 +306,14 @@ Expected<CutDrawings> cut_drawings(const Element& element, const HookParameters&
 Expected<CutFiles> cut_files(const Element& element, const HookParameters& parameters, int count,
                              const CutOptions& options)
 {
+    // The template nests its own pages: on a thread of its own, beside the sheets.
+    auto template_made = std::async(std::launch::async, [&] {
+        return element_outline(parameters).and_then([&](const Path& outline) {
+            return template_pdf(outline, options.paper);
+        });
+    });
     auto drawings = cut_drawings(element, parameters, count, options);
+    auto pdf = template_made.get();
     if (!drawings) {
         return tl::make_unexpected(drawings.error());
     }
@@ -316,8 +324,6 @@ Expected<CutFiles> cut_files(const Element& element, const HookParameters& param
     if (drawings->coupon) {
         add_drawing(result.files, "coupon", *drawings->coupon, options);
     }
-    auto pdf =
-        element_outline(parameters).and_then([&](const Path& outline) { return template_pdf(outline, options.paper); });
     if (!pdf) {
         return tl::make_unexpected(pdf.error());
     }

@@ -115,7 +115,7 @@ Stack refined(const Mates& mates, Stack stack)
 std::vector<Stack> sampled_stacks(const Mates& mates)
 {
     std::vector<double> directions;
-    constexpr int even = 90;
+    constexpr int even = 60;
     for (int i = 0; i < even; ++i) {
         directions.push_back(pi * i / even);
     }

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <future>
 #include <optional>
+#include <thread>
+#include <vector>
 
 #include "core/units.h"
 #include "exporters/nesting_double.h"
@@ -236,19 +240,48 @@ Layout stacked_rows(const Piece& piece, const Room& room, double angle)
     return best;
 }
 
+namespace {
+
+struct TwoWays
+{
+    Layout across;  //!< rows along the sheet's width
+    Layout upright; //!< rows along its height
+};
+
+//! Each angle on its own, on all cores; what is chosen afterwards does not depend on which thread was first.
+std::vector<TwoWays> rows_at(const Piece& piece, const Room& room, const std::vector<double>& angles)
+{
+    const Room lying{room.height, room.width};
+    std::vector<TwoWays> rows(angles.size());
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+        for (std::size_t i = next++; i < angles.size(); i = next++) {
+            const double lying_angle = piece.grain == Grain::Any ? angles[i] : angles[i] - pi / 2;
+            rows[i] = {stacked_rows(piece, room, angles[i]), stacked_rows(piece, lying, lying_angle)};
+        }
+    };
+    std::vector<std::future<void>> others;
+    for (unsigned t = 1; t < std::thread::hardware_concurrency(); ++t) {
+        others.push_back(std::async(std::launch::async, work));
+    }
+    work();
+    for (auto& other : others) {
+        other.get();
+    }
+    return rows;
+}
+
+} // namespace
+
 Layout best_rows(const Piece& piece, const Room& room, std::size_t more_than)
 {
     Layout best;
-    const Room lying{room.height, room.width};
-    for (const double angle : row_angles(piece)) {
-        Layout across = stacked_rows(piece, room, angle);
-        if (across.size() > std::max(best.size(), more_than)) {
-            best = std::move(across);
+    for (TwoWays& rows : rows_at(piece, room, row_angles(piece))) {
+        if (rows.across.size() > std::max(best.size(), more_than)) {
+            best = std::move(rows.across);
         }
-        const double lying_angle = piece.grain == Grain::Any ? angle : angle - pi / 2;
-        Layout upright = stacked_rows(piece, lying, lying_angle);
-        if (upright.size() > std::max(best.size(), more_than)) {
-            best = stood_up(std::move(upright), room);
+        if (rows.upright.size() > std::max(best.size(), more_than)) {
+            best = stood_up(std::move(rows.upright), room);
         }
     }
     return best;
