@@ -76,6 +76,7 @@ Expected<void> add_preview(Kit& kit, const Design& design, const Replay& replay,
     tell(options, "preview");
     PreviewOptions preview;
     preview.title = design.title;
+    preview.thumbnail_size = 512; // enough for a mail or a list of designs
     preview.lamp = options.lamp;
     auto made = preview_files(replay, plan, piece.element, preview);
     if (!made) {
