@@ -63,7 +63,7 @@ layer_height = 0.1; // [0.04:0.01:0.4]
 /* [Quality] */
 
 // straight pieces of a full circle; 128 at most in a print. The size of the part stays the same
-segments = 360; // [32:8:1080]
+segments = 720; // [32:8:1080]
 
 /* [Hidden] */
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "exporters/nesting_polygon.h"
+#include "exporters/outline.h"
 #include "tests/bench/nesting_rival.h"
 #include "tests/exporters/nesting_outlines.h"
 
@@ -19,10 +20,23 @@ struct NamedOutline
     outlines::Outline outline;
 };
 
+NamedOutline element(double la, double lb, double alpha, double thickness)
+{
+    const Element element{.la = la, .lb = lb, .alpha = radians(alpha), .thickness = thickness};
+    return {"la " + std::to_string(std::lround(la)) + " a " + std::to_string(std::lround(alpha)),
+            outline_points(hook_parameters(element), 48).value()};
+}
+
 std::vector<NamedOutline> all_outlines()
 {
     return {{"element 80/88", outlines::from_data("nest_default_element.json")},
             {"piece A", outlines::from_data("nest_piece_a.json")},
+            element(40, 44, 52, 0.3),
+            element(48, 56, 76, 0.25),
+            element(60, 66, 69, 0.3),
+            element(70, 84, 58, 0.5),
+            element(100, 110, 72, 0.8),
+            element(120, 132, 63.435, 0.5),
             {"L", outlines::l_shape()},
             {"T", outlines::tee()},
             {"U", outlines::u_shape()},
