@@ -12,6 +12,7 @@
 #include <qpdf/QPDFWriter.hh>
 
 #include "core/text.h"
+#include "exporters/markup.h"
 
 namespace rhombloom {
 
@@ -54,15 +55,6 @@ std::string xmp_date()
            digits(t.tm_hour, 2) + ":" + digits(t.tm_min, 2) + ":" + digits(t.tm_sec, 2) + "+00:00";
 }
 
-std::string escaped(const std::string& text)
-{
-    std::string out;
-    for (const char c : text) {
-        out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    }
-    return out;
-}
-
 constexpr const char* program = "rhombloom";
 
 std::string xmp(const DocumentInfo& info)
@@ -74,7 +66,7 @@ std::string xmp(const DocumentInfo& info)
            "</pdfaid:part><pdfaid:conformance>B</pdfaid:conformance></rdf:Description>\n"
            "<rdf:Description rdf:about=\"\" xmlns:dc=\"http://purl.org/dc/elements/1.1/\"><dc:format>application/pdf"
            "</dc:format><dc:title><rdf:Alt><rdf:li xml:lang=\"x-default\">" +
-           escaped(info.title) +
+           markup_escaped(info.title) +
            "</rdf:li></rdf:Alt></dc:title></rdf:Description>\n"
            "<rdf:Description rdf:about=\"\" xmlns:xmp=\"http://ns.adobe.com/xap/1.0/\"><xmp:CreatorTool>" +
            program + "</xmp:CreatorTool><xmp:CreateDate>" + date + "</xmp:CreateDate><xmp:ModifyDate>" + date +

@@ -8,6 +8,7 @@
 #include <zlib.h>
 
 #include "core/text.h"
+#include "exporters/markup.h"
 #include "exporters/sha256.h"
 
 namespace rhombloom {
@@ -274,30 +275,6 @@ std::string lean(const std::string& text)
     return result;
 }
 
-std::string escaped(const std::string& text)
-{
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result.push_back(c);
-        }
-    }
-    return result;
-}
-
 //! "'sha256-...'" of an inline script or style, for the content security policy.
 std::string source_hash(const std::string& text)
 {
@@ -342,8 +319,8 @@ Expected<std::string> assembled(const std::string& title, const std::string& dat
     const std::string js = lean(*script);
     const std::string policy = "default-src 'none'; script-src " + source_hash(js) + "; style-src " + source_hash(css) +
                                "; base-uri 'none'; form-action 'none'";
-    return filled(*page,
-                  {{"POLICY", policy}, {"TITLE", escaped(title)}, {"STYLE", css}, {"SCRIPT", js}, {"DATA", data}});
+    return filled(
+        *page, {{"POLICY", policy}, {"TITLE", markup_escaped(title)}, {"STYLE", css}, {"SCRIPT", js}, {"DATA", data}});
 }
 
 //! \}

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "exporters/markup.h"
 
 namespace rhombloom {
 
@@ -11,30 +12,6 @@ namespace {
 std::string number(double value)
 {
     return to_fixed(value, 5);
-}
-
-std::string escaped(const std::string& text)
-{
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        }
-    }
-    return result;
 }
 
 //! As the file has it. Radii must fit the rounded ends: half circles are sensitive to the last digit.
@@ -78,14 +55,14 @@ std::string path_data(const Path& path, double height)
 
 std::string layer_text(const Layer& layer, double height, double stroke_width)
 {
-    const std::string name = escaped(layer.name);
+    const std::string name = markup_escaped(layer.name);
     std::string text = "<g id=\"" + name + "\" inkscape:groupmode=\"layer\" inkscape:label=\"" + name + "\">\n";
     for (std::size_t i = 0; i < layer.paths.size(); ++i) {
         const Path& path = layer.paths[i];
         if (path.vertices.size() < 2) {
             continue;
         }
-        const std::string id = path.id.empty() ? name + "-" + std::to_string(i + 1) : escaped(path.id);
+        const std::string id = path.id.empty() ? name + "-" + std::to_string(i + 1) : markup_escaped(path.id);
         text += "<path id=\"" + id + "\" fill=\"none\" stroke=\"" + colour_text(layer.rgb) + "\" stroke-width=\"" +
                 number(stroke_width) + "\" d=\"" + path_data(path, height) + "\"/>\n";
     }
@@ -96,7 +73,7 @@ std::string metadata(const std::vector<std::string>& notes)
 {
     std::string text = "<metadata id=\"settings\">\n";
     for (const std::string& note : notes) {
-        text += "<rhombloom:setting>" + escaped(note) + "</rhombloom:setting>\n";
+        text += "<rhombloom:setting>" + markup_escaped(note) + "</rhombloom:setting>\n";
     }
     return text + "</metadata>\n";
 }
