@@ -82,7 +82,19 @@ struct Layout
     Vec3 position = Vec3::Zero(); //!< of the part's middle, mm
 };
 
-using Operation = std::variant<Place, Merge, Extrude, Open, Flip, Layout>;
+//! \brief A network of elements made from a mesh (mesh_import.h) becomes a new part named \p id.
+//! \details The network is stored, not the recipe: a replay needs neither the target nor the remeshing.
+struct Import
+{
+    std::string id;
+    std::string target;          //!< file beside the design with the repaired target in mm; empty: none
+    std::string target_sha256;   //!< of that file
+    std::vector<Vec3> positions; //!< mm
+    std::vector<Quad> quads;     //!< counter-clockwise seen from outside; the first side is long
+    std::vector<int> flipped;    //!< the elements that are turned over
+};
+
+using Operation = std::variant<Place, Merge, Extrude, Open, Flip, Layout, Import>;
 
 //! \brief The document: an element and a history of operations (DESIGN.md section 4). The surface is its replay.
 struct Design

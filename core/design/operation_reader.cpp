@@ -10,8 +10,9 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double farthest = 1e6;      // mm, a kilometre
-constexpr std::size_t longest = 1000; // entries of a list of elements or joins
+constexpr double farthest = 1e6;            // mm, a kilometre
+constexpr std::size_t longest = 1000;       // entries of a list of elements or joins
+constexpr std::size_t most_points = 200000; // of an imported network
 
 template <class T>
 Expected<Operation> finished(ObjectReader& reader, T operation)
@@ -65,15 +66,15 @@ Reference take_reference(ObjectReader& reader, const std::string& key, const std
 
 //! Every entry of the list at \p key, read by \p read(entry, path).
 template <class T, class Read>
-std::vector<T> take_list(ObjectReader& reader, const std::string& key, const Read& read)
+std::vector<T> take_list(ObjectReader& reader, const std::string& key, const Read& read, std::size_t most = longest)
 {
     std::vector<T> result;
     const json* value = reader.take(key);
     if (value == nullptr) {
         return result;
     }
-    if (!value->is_array() || value->size() > longest) {
-        reader.fail(key, "is " + describe(*value) + ": expected a list of at most " + std::to_string(longest));
+    if (!value->is_array() || value->size() > most) {
+        reader.fail(key, "is " + describe(*value) + ": expected a list of at most " + std::to_string(most));
         return result;
     }
     for (std::size_t i = 0; i < value->size(); ++i) {
@@ -196,6 +197,66 @@ Expected<Operation> read_layout(ObjectReader& reader)
     return finished(reader, std::move(layout));
 }
 
+Expected<Vec3> read_import_point(const json& value, const std::string& path)
+{
+    // A list has no keys: wrap it, so that points are read in one way everywhere.
+    const json wrapped = {{"point", value}};
+    ObjectReader reader(wrapped, path);
+    const Vec3 point = reader.point("point", Vec3::Zero());
+    if (auto ok = reader.finish(); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    return point;
+}
+
+Expected<int> read_number_below(const json& value, std::size_t limit, const std::string& path)
+{
+    if (!value.is_number_integer() || value < 0 || value >= limit) {
+        return refuse(path + " is " + describe(value) + ": expected a whole number from 0 to " +
+                      std::to_string(limit - 1));
+    }
+    return value.get<int>();
+}
+
+Expected<Quad> read_quad(const json& value, std::size_t points, const std::string& path)
+{
+    if (!value.is_array() || value.size() != 4) {
+        return refuse(path + " is " + describe(value) + ": expected the numbers of four points");
+    }
+    Quad quad{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto number = read_number_below(value[k], points, path + "[" + std::to_string(k) + "]");
+        if (!number) {
+            return tl::make_unexpected(number.error());
+        }
+        quad[k] = *number;
+    }
+    return quad;
+}
+
+Expected<Operation> read_import(ObjectReader& reader)
+{
+    Import import;
+    reader.require("points_mm");
+    reader.require("elements");
+    import.id = reader.text("id", "body");
+    import.target = reader.text("target", "");
+    import.target_sha256 = reader.text("target_sha256", "");
+    import.positions = take_list<Vec3>(reader, "points_mm", read_import_point, most_points);
+    const std::size_t points = import.positions.size();
+    const auto quad = [points](const json& value, const std::string& path) { return read_quad(value, points, path); };
+    import.quads = take_list<Quad>(reader, "elements", quad, most_points);
+    const std::size_t quads = import.quads.size();
+    const auto number = [quads](const json& value, const std::string& path) {
+        return read_number_below(value, quads, path);
+    };
+    import.flipped = take_list<int>(reader, "flipped", number, most_points);
+    if (import.quads.empty()) {
+        reader.fail("elements", "is empty: expected at least one element");
+    }
+    return finished(reader, std::move(import));
+}
+
 Vec3 take_direction(ObjectReader& reader, const std::string& key)
 {
     const Vec3 direction = reader.point(key, Vec3::UnitX());
@@ -210,15 +271,15 @@ Vec3 take_direction(ObjectReader& reader, const std::string& key)
 Expected<Operation> read_operation(const json& value, const std::string& path)
 {
     static const std::map<std::string, Expected<Operation> (*)(ObjectReader&)> readers = {
-        {"place", read_place}, {"merge", read_merge}, {"extrude", read_extrude},
-        {"open", read_open},   {"flip", read_flip},   {"layout", read_layout}};
+        {"place", read_place}, {"merge", read_merge},   {"extrude", read_extrude}, {"open", read_open},
+        {"flip", read_flip},   {"layout", read_layout}, {"import", read_import}};
     ObjectReader reader(value, path);
     reader.require("op");
     const std::string op = reader.text("op", "place");
     if (const auto known = readers.find(op); known != readers.end()) {
         return known->second(reader);
     }
-    reader.fail("op", "is \"" + op.substr(0, 60) + "\": expected place, merge, extrude, open, flip or layout");
+    reader.fail("op", "is \"" + op.substr(0, 60) + "\": expected place, merge, extrude, open, flip, layout or import");
     return tl::make_unexpected(reader.finish().error());
 }
 

@@ -98,6 +98,22 @@ ordered_json write(const Layout& layout)
     return out;
 }
 
+ordered_json write(const Import& import)
+{
+    ordered_json out = {{"op", "import"}, {"id", import.id}};
+    if (!import.target.empty()) {
+        out["target"] = import.target;
+        out["target_sha256"] = import.target_sha256;
+    }
+    out["points_mm"] = ordered_json::array();
+    for (const Vec3& p : import.positions) {
+        out["points_mm"].push_back(write_point(p));
+    }
+    out["elements"] = import.quads;
+    out["flipped"] = import.flipped;
+    return out;
+}
+
 } // namespace
 
 ordered_json write_operation(const Operation& operation)

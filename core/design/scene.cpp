@@ -5,6 +5,7 @@
 #include "core/design/edit.h"
 #include "core/design/extrude.h"
 #include "core/design/merge.h"
+#include "core/design/mesh_import/network.h"
 #include "core/design/planar_layout.h"
 #include "core/design/pose.h"
 #include "core/text.h"
@@ -108,6 +109,16 @@ Expected<void> run(const Layout& layout, const Context& context)
         surface->set_point(v, surface->point(v) + layout.position);
     }
     return add_part(layout.id, std::move(*surface), report, context.scene);
+}
+
+Expected<void> run(const Import& import, const Context& context)
+{
+    auto surface = network(import);
+    if (!surface) {
+        return tl::make_unexpected(surface.error());
+    }
+    const EmbedReport report = embed_in_place(*surface, context.element(), context.embedding);
+    return add_part(import.id, std::move(*surface), report, context.scene);
 }
 
 Expected<void> run(const Merge& merge, const Context& context)
@@ -250,6 +261,10 @@ struct Describe
     std::string operator()(const Layout& op) const
     {
         return "lay out " + std::to_string(op.elements.size()) + " elements as " + op.id;
+    }
+    std::string operator()(const Import& op) const
+    {
+        return "import " + std::to_string(op.quads.size()) + " elements as " + op.id;
     }
 };
 

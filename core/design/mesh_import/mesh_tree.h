@@ -1,0 +1,58 @@
+#pragma once
+
+#include "core/design/mesh_import/triangle_mesh.h"
+
+namespace rhombloom {
+
+//! \brief The point of a mesh that is nearest to another point.
+struct NearestPoint
+{
+    Vec3 point = Vec3::Zero();
+    int triangle = -1;
+    double distance = 0;
+};
+
+//! \brief Answers "what of this mesh is nearest?" and "inside or outside?" in logarithmic time: a tree of boxes.
+//! \details Keeps its own copy of the mesh. Reading from several threads is safe.
+class MeshTree
+{
+public:
+    explicit MeshTree(TriangleMesh mesh);
+
+    const TriangleMesh& mesh() const { return mesh_; }
+
+    NearestPoint nearest(const Vec3& p) const;
+
+    //! \brief Generalised winding number (Jacobson et al. 2013): 1 inside, 0 outside a closed mesh, in between where it
+    //! has holes. Far groups of triangles count as one dipole (Barill et al. 2018), good to about 0.01.
+    double winding_number(const Vec3& p) const;
+
+    //! \brief Unit normal of triangle \p t.
+    const Vec3& normal(int t) const { return normals_[t]; }
+
+private:
+    struct Node
+    {
+        Eigen::AlignedBox3d box;
+        int first = 0; //!< of order_
+        int count = 0; //!< 0: an inner node
+        int left = -1; //!< the right child follows it
+        Vec3 dipole = Vec3::Zero();
+        Vec3 centre = Vec3::Zero();
+        double radius = 0;
+    };
+
+    void build(int node, int first, int count);
+    void sum_up(Node& node, int first, int count) const;
+
+    TriangleMesh mesh_;
+    std::vector<Vec3> normals_;
+    std::vector<Vec3> middles_;
+    std::vector<int> order_;
+    std::vector<Node> nodes_;
+};
+
+//! \brief The point of the triangle a, b, c nearest to \p p.
+Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
+} // namespace rhombloom
