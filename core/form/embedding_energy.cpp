@@ -1,6 +1,7 @@
 #include "core/form/embedding_energy.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/form/term_kernels.h"
 
@@ -38,9 +39,17 @@ SpringResponse pair_response(const SpringLaw& law, const SpringPair& pair, doubl
     return sum;
 }
 
-bool is_active(const HingeResponse& response)
+// The response with which a hinge enters the Hessian.
+HingeResponse hinge_response(const HingeLaw& law, double angle, const HessianOptions& options)
 {
-    return response.stiffness != 0;
+    HingeResponse response = hinge_response(law, angle);
+    if (options.hinge_blur > 0) {
+        const double passed = angle / std::sqrt(angle * angle + options.hinge_blur * options.hinge_blur);
+        const double share = std::max(options.hinge_floor, 0.5 * (1 - passed));
+        response.stiffness += 2 * law.concavity_weight * share - (angle < 0 ? 2 * law.concavity_weight : 0);
+    }
+    response.moment *= 1 - options.damping;
+    return response;
 }
 
 void add_block(BlockMatrix& matrix, int block, const Matrix3d& addend)
@@ -68,28 +77,23 @@ void add_spring(const EmbeddingTerms& terms, const SpringPair& pair, const std::
 }
 
 void add_hinge(const EmbeddingTerms& terms, const HingeVertices& hinge, const std::array<int, 10>& blocks,
-               const VectorXd& x, double damping, BlockMatrix& hessian)
+               const VectorXd& x, const HessianOptions& options, BlockMatrix& hessian)
 {
     const HingePoints points = hinge_points(x, hinge);
-    const HingeResponse response = hinge_response(terms.hinge_law, hinge_angle(points));
-    if (!is_active(response)) {
+    const HingeResponse response = hinge_response(terms.hinge_law, hinge_angle(points), options);
+    if (response.stiffness == 0) {
         return;
     }
     const HingeAngle angle = hinge_angle_derivatives(points);
-    const double curvature = (1 - damping) * response.moment;
     for (int k = 0, n = 0; k < 4; ++k) {
         for (int l = 0; l <= k; ++l, ++n) {
             const Matrix3d block =
                 response.stiffness * angle.gradient.segment<3>(3 * k) * angle.gradient.segment<3>(3 * l).transpose() +
-                curvature * angle.hessian.block<3, 3>(3 * k, 3 * l);
+                response.moment * angle.hessian.block<3, 3>(3 * k, 3 * l);
             add_block(hessian, blocks[n], hinge[k] >= hinge[l] ? block : Matrix3d(block.transpose()));
         }
     }
 }
-
-} // namespace
-
-namespace {
 
 EnergyParts evaluate(const EmbeddingTerms& terms, const VectorXd& x, double* gradient)
 {
@@ -146,15 +150,15 @@ BlockMatrix hessian_matrix(const EmbeddingTerms& terms, HessianPattern& pattern)
     return matrix;
 }
 
-void embedding_hessian(const EmbeddingTerms& terms, const HessianPattern& pattern, const VectorXd& x, double damping,
-                       BlockMatrix& hessian)
+void embedding_hessian(const EmbeddingTerms& terms, const HessianPattern& pattern, const VectorXd& x,
+                       const HessianOptions& options, BlockMatrix& hessian)
 {
     std::fill(hessian.value.begin(), hessian.value.end(), 0.0);
     for (std::size_t k = 0; k < terms.springs.size(); ++k) {
-        add_spring(terms, terms.springs[k], pattern.spring_blocks[k], x, damping, hessian);
+        add_spring(terms, terms.springs[k], pattern.spring_blocks[k], x, options.damping, hessian);
     }
     for (std::size_t k = 0; k < terms.hinges.size(); ++k) {
-        add_hinge(terms, terms.hinges[k], pattern.hinge_blocks[k], x, damping, hessian);
+        add_hinge(terms, terms.hinges[k], pattern.hinge_blocks[k], x, options, hessian);
     }
 }
 

@@ -30,10 +30,20 @@ struct HessianPattern
 
 BlockMatrix hessian_matrix(const EmbeddingTerms& terms, HessianPattern& pattern);
 
-//! \brief The Hessian with the share \p damping (0: exact, 1: positive semidefinite) of its indefinite part removed.
-//! \details That part is the lateral stiffness of compressed springs and the curvature of the hinge angles. Elements in
-//! equilibrium are prestressed, so it carries the bending stiffness and must not be clamped for good.
+//! \brief How the Hessian deviates from the exact one; by default it does not.
+struct HessianOptions
+{
+    //! Share removed of the indefinite part (1: positive semidefinite): the lateral stiffness of compressed springs and
+    //! the curvature of the hinge angles. Elements in equilibrium are prestressed, so this part carries the bending
+    //! stiffness and must not be removed for good.
+    double damping = 0;
+    //! Radians over which the stiffness of a hinge passes from the concave to the convex value; 0: the exact jump.
+    double hinge_blur = 0;
+    //! Stiffness of every hinge, at least, as a share of that of concave ones.
+    double hinge_floor = 0;
+};
+
 void embedding_hessian(const EmbeddingTerms& terms, const HessianPattern& pattern, const Eigen::VectorXd& x,
-                       double damping, BlockMatrix& hessian);
+                       const HessianOptions& options, BlockMatrix& hessian);
 
 } // namespace rhombloom

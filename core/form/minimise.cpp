@@ -1,6 +1,25 @@
 #include "core/form/minimise.h"
 
+#include "core/form/newton_system.h"
+
 namespace rhombloom {
+
+namespace {
+
+// For a method that begins after \p done iterations.
+MinimiseOptions rest_of(const MinimiseOptions& options, int done)
+{
+    MinimiseOptions rest = options;
+    rest.max_iterations -= done;
+    if (options.progress) {
+        rest.progress = [&options, done](int iteration, const Iterate& now) {
+            return options.progress(done + iteration, now);
+        };
+    }
+    return rest;
+}
+
+} // namespace
 
 bool should_stop(const Iterate& iterate, const MinimiseOptions& options, MinimiseResult& result)
 {
@@ -16,22 +35,30 @@ bool should_stop(const Iterate& iterate, const MinimiseOptions& options, Minimis
     return true;
 }
 
+bool is_large(const EmbeddingTerms& terms)
+{
+    return terms.vertex_count >= 3000;
+}
+
 MinimiseResult minimise(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options)
 {
-    const MinimiseResult first = quasi_newton(terms, iterate, options);
-    if (first.reason != StopReason::Stalled) {
-        return first;
+    MinimiseResult result = quasi_newton(terms, iterate, options);
+    const auto go_on = [&](auto&& method) {
+        if (result.reason == StopReason::Stalled) {
+            const int before = result.iterations;
+            result = method(rest_of(options, before));
+            result.iterations += before;
+        }
+    };
+    if (result.reason != StopReason::Stalled) {
+        return result;
     }
-    MinimiseOptions rest = options;
-    rest.max_iterations -= first.iterations;
-    if (options.progress) {
-        rest.progress = [&](int iteration, const Iterate& now) {
-            return options.progress(first.iterations + iteration, now);
-        };
+    NewtonSystem system(terms, options.threads);
+    if (is_large(terms)) {
+        go_on([&](const MinimiseOptions& rest) { return blurred_descent(terms, system, iterate, rest); });
     }
-    MinimiseResult second = newton(terms, iterate, rest);
-    second.iterations += first.iterations;
-    return second;
+    go_on([&](const MinimiseOptions& rest) { return newton_with(system, terms, iterate, rest); });
+    return result;
 }
 
 } // namespace rhombloom

@@ -29,20 +29,33 @@ struct MinimiseResult
     int iterations = 0;
 };
 
-//! \brief Minimise the energy from \p iterate, leaving the best one there: quasi_newton() while far away, newton()
-//! then.
+class NewtonSystem;
+
+//! \brief Is the surface so large that long waves need a method of their own?
+bool is_large(const EmbeddingTerms& terms);
+
+//! \brief Minimise the energy from \p iterate, leaving the best one there: quasi_newton() while far away, on large
+//! surfaces blurred_descent(), newton() in the end.
 MinimiseResult minimise(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options);
 
-//! \brief Newton's method with the exact Hessian.
-//! \details Only where that is not positive definite, a share of its indefinite part is removed: raised until the
-//! factorisation succeeds, lowered after every success.
+//! \brief Newton's method with the exact Hessian where that is positive definite (NewtonSystem::direction()).
 MinimiseResult newton(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options);
+MinimiseResult newton_with(NewtonSystem& system, const EmbeddingTerms& terms, Iterate& iterate,
+                           const MinimiseOptions& options);
 
-//! \brief Limited-memory BFGS (Nocedal 1980) until the energy hardly falls any more; then the result is Stalled.
-//! \details Cheap and as good as Newton's method as long as most of the energy is in short-waved noise.
+//! \brief Limited-memory BFGS until the energy hardly falls any more; then the result is Stalled.
+//! \details Cheap and as good as Newton's method as long as most of the energy is in short-waved noise. On a large
+//! surface it is seeded with the Laplacian of the springs, as Liu et al. 2017 do, which takes care of the long waves.
 MinimiseResult quasi_newton(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options);
 
-//! \brief What both methods ask before each iteration: a reason to stop, if there is one.
+//! \brief Limited-memory BFGS seeded with a Hessian that is factored again now and then, until it is settled which
+//! hinges are concave; then the result is Stalled.
+//! \details Newton's method sees only the hinges that are concave now, runs into those that become so, and gains a few
+//! rows of elements per factorisation. In the seed hinges near flat therefore have part of the concave ones' stiffness.
+MinimiseResult blurred_descent(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& iterate,
+                               const MinimiseOptions& options);
+
+//! \brief What all methods ask before each iteration: a reason to stop, if there is one.
 bool should_stop(const Iterate& iterate, const MinimiseOptions& options, MinimiseResult& result);
 
 } // namespace rhombloom

@@ -1,6 +1,8 @@
+#include "core/form/quasi_newton.h"
+
 #include <deque>
 
-#include "core/form/minimise.h"
+#include "core/form/graph_laplacian.h"
 
 namespace rhombloom {
 
@@ -8,78 +10,74 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int memory = 10;
-constexpr int window = 10;             // iterations over which the decrease is judged
-constexpr double slow_decrease = 1e-4; // relative, over the window
-constexpr double first_move = 0.1;     // la
+constexpr int window = 10;         // iterations over which the decrease is judged
+constexpr double first_move = 0.1; // la
+constexpr LaplacianWeights metric = {10, 1, 0.1};
 
-struct Correction
+// Has the energy hardly fallen for a while?
+class Slowness
 {
-    VectorXd step;
-    VectorXd change; // of the gradient
-    double curvature;
+public:
+    explicit Slowness(double decrease) : decrease_(decrease) {}
+
+    bool shows(double energy)
+    {
+        energies_.push_back(energy);
+        if (energies_.size() > window + 1) {
+            energies_.pop_front();
+        }
+        return energies_.size() > window && energies_.front() - energies_.back() < decrease_ * energies_.front();
+    }
+
+private:
+    double decrease_; // relative, over the window
+    std::deque<double> energies_;
 };
 
-// The two-loop recursion.
-VectorXd direction(const VectorXd& gradient, const std::deque<Correction>& corrections)
+// Steepest descent by the lengths of the first step, in the metric of the springs on a large surface: there long waves
+// would take as many iterations as the surface has elements across.
+LimitedMemory::Seed laplacian_seed(const EmbeddingTerms& terms)
 {
-    VectorXd d = -gradient;
-    std::vector<double> alpha(corrections.size());
-    for (std::size_t k = corrections.size(); k-- > 0;) {
-        alpha[k] = corrections[k].step.dot(d) / corrections[k].curvature;
-        d -= alpha[k] * corrections[k].change;
-    }
-    if (corrections.empty()) {
-        return first_move / gradient.lpNorm<Eigen::Infinity>() * d;
-    }
-    d *= corrections.back().curvature / corrections.back().change.squaredNorm();
-    for (std::size_t k = 0; k < corrections.size(); ++k) {
-        const double beta = corrections[k].change.dot(d) / corrections[k].curvature;
-        d += (alpha[k] - beta) * corrections[k].step;
-    }
-    return d;
-}
-
-void remember(std::deque<Correction>& corrections, VectorXd step, VectorXd change)
-{
-    const double curvature = step.dot(change);
-    if (curvature > 1e-10 * step.norm() * change.norm()) {
-        corrections.push_back({std::move(step), std::move(change), curvature});
-    }
-    if (corrections.size() > memory) {
-        corrections.pop_front();
-    }
-}
-
-bool is_slow(const std::deque<double>& energies)
-{
-    return energies.size() > window && energies.front() - energies.back() < slow_decrease * energies.front();
+    return [laplacian = std::make_shared<const GraphLaplacian>(terms, metric)](const VectorXd& gradient) -> VectorXd {
+        return laplacian->solve(gradient.reshaped(3, gradient.size() / 3).transpose()).transpose().reshaped();
+    };
 }
 
 } // namespace
 
+bool quasi_newton_step(const EmbeddingTerms& terms, Iterate& iterate, LimitedMemory& memory,
+                       const LimitedMemory::Seed& seed)
+{
+    const Iterate last = iterate;
+    const bool steepest = memory.empty() && !seed;
+    const VectorXd direction = steepest ? VectorXd(-first_move / iterate.gradient_norm() * iterate.gradient)
+                                        : memory.direction(iterate.gradient, seed);
+    if (line_search(terms, iterate, direction, {1, 2})) {
+        memory.remember(iterate.x - last.x, iterate.gradient - last.gradient);
+        return true;
+    }
+    const bool had_memory = !memory.empty();
+    memory.clear();
+    return had_memory;
+}
+
 MinimiseResult quasi_newton(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options)
 {
     MinimiseResult result;
-    std::deque<Correction> corrections;
-    std::deque<double> energies;
+    const bool large = is_large(terms);
+    LimitedMemory memory(large ? 20 : 10);
+    Slowness slowness(large ? 1e-3 : 1e-4);
+    LimitedMemory::Seed seed;
     for (; !should_stop(iterate, options, result); ++result.iterations) {
-        energies.push_back(iterate.energy);
-        if (energies.size() > window + 1) {
-            energies.pop_front();
-        }
-        if (is_slow(energies)) {
+        if (slowness.shows(iterate.energy)) {
             break;
         }
-        const Iterate last = iterate;
-        if (!line_search(terms, iterate, direction(iterate.gradient, corrections), {1, 2})) {
-            if (corrections.empty()) {
-                break;
-            }
-            corrections.clear();
-            continue;
+        if (large && !seed) {
+            seed = laplacian_seed(terms);
         }
-        remember(corrections, iterate.x - last.x, iterate.gradient - last.gradient);
+        if (!quasi_newton_step(terms, iterate, memory, seed)) {
+            break;
+        }
     }
     return result;
 }

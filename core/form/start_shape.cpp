@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
-#include "core/form/linear_solver.h"
+#include "core/form/graph_laplacian.h"
 
 namespace rhombloom {
 
@@ -52,26 +52,6 @@ std::vector<std::vector<int>> spring_neighbours(const EmbeddingTerms& terms)
         neighbours[pair.b].push_back(pair.a);
     }
     return neighbours;
-}
-
-// Of the graph of edges, with every entry repeated along the diagonal of its 3 x 3 block.
-BlockMatrix graph_laplacian(const EmbeddingTerms& terms)
-{
-    std::vector<std::pair<int, int>> pairs;
-    for (int k = 0; k < terms.edge_count; ++k) {
-        pairs.emplace_back(terms.springs[k].a, terms.springs[k].b);
-    }
-    BlockMatrix matrix = make_block_matrix(terms.vertex_count, pairs);
-    const auto add = [&](int i, int j, double value) {
-        Eigen::Map<Eigen::Matrix3d>(&matrix.value[9 * std::size_t(block_index(matrix, i, j))]).diagonal().array() +=
-            value;
-    };
-    for (const auto& [a, b] : pairs) {
-        add(a, a, 1);
-        add(b, b, 1);
-        add(a, b, -1);
-    }
-    return matrix;
 }
 
 // Numbers of the parts that remain when the marked vertices are taken out; -1 for these.
@@ -205,26 +185,26 @@ void separate(const EmbeddingTerms& terms, VectorXd& x)
 
 VectorXd spectral_layout(const EmbeddingTerms& terms)
 {
-    const BlockMatrix laplacian = graph_laplacian(terms);
-    LinearSolver solver(laplacian);
     const int n = terms.vertex_count;
+    if (n < 4) {
+        return VectorXd::Zero(3 * n);
+    }
+    const GraphLaplacian laplacian(terms, {});
     std::mt19937_64 random(2);
     MatrixXd modes(n, 4);
     for (double& value : modes.reshaped()) {
         value = random_unit(random);
     }
     modes.col(0).setOnes();
-    if (n < 4 || !solver.factor(laplacian, 1e-6)) {
-        return VectorXd::Zero(3 * n);
-    }
-    VectorXd x(3 * n);
+    const auto orthonormal = [&] {
+        return (Eigen::HouseholderQR<MatrixXd>(modes).householderQ() * MatrixXd::Identity(n, 4)).eval();
+    };
     for (int k = 0; k < 60; ++k) {
-        modes = Eigen::HouseholderQR<MatrixXd>(modes).householderQ() * MatrixXd::Identity(n, 4);
-        x = solver.solve(modes.rightCols<3>().transpose().reshaped());
-        modes.rightCols<3>() = x.reshaped(3, n).transpose();
+        modes = orthonormal();
+        modes.rightCols<3>() = laplacian.solve(modes.rightCols<3>());
     }
-    modes = Eigen::HouseholderQR<MatrixXd>(modes).householderQ() * MatrixXd::Identity(n, 4);
-    x = modes.rightCols<3>().transpose().reshaped();
+    modes = orthonormal();
+    VectorXd x = modes.rightCols<3>().transpose().reshaped();
     rescale(terms, x);
     VectorXd mirrored = x;
     mirror(mirrored);

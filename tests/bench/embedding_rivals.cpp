@@ -87,7 +87,7 @@ Trace run_projected_newton(const EmbeddingTerms& terms, const Eigen::VectorXd& s
     solver.setShift(1e-8);
     Iterate iterate = iterate_at(terms, start);
     while (recorder.record(iterate.energy, iterate.gradient_norm()) && iterate.gradient_norm() > 1e-8) {
-        embedding_hessian(terms, pattern, iterate.x, 1, hessian);
+        embedding_hessian(terms, pattern, iterate.x, {1}, hessian);
         solver.factorize(expand(hessian));
         if (!line_search(terms, iterate, -solver.solve(iterate.gradient), {1, 2})) {
             break;

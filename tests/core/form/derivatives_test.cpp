@@ -135,7 +135,7 @@ void expect_exact_derivatives(const Case& test, unsigned seed)
     embedding_gradient(terms, x, gradient);
     HessianPattern pattern;
     BlockMatrix hessian = hessian_matrix(terms, pattern);
-    embedding_hessian(terms, pattern, x, 0, hessian);
+    embedding_hessian(terms, pattern, x, {}, hessian);
     VectorXd direction = VectorXd::Random(x.size());
     const double step = 1e-7;
     VectorXd ahead, behind, product;

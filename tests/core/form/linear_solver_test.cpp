@@ -23,7 +23,7 @@ BlockMatrix ball_matrix(int level)
     }
     HessianPattern pattern;
     BlockMatrix matrix = hessian_matrix(terms, pattern);
-    embedding_hessian(terms, pattern, x, 1, matrix);
+    embedding_hessian(terms, pattern, x, {1}, matrix);
     return matrix;
 }
 

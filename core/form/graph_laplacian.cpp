@@ -1,0 +1,76 @@
+#include "core/form/graph_laplacian.h"
+
+#include <Eigen/SparseCholesky>
+
+#include "core/expected.h"
+#include "core/form/elimination_tree.h"
+
+namespace rhombloom {
+
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+// Rows and columns in the order of elimination.
+SparseMatrix laplacian(const EmbeddingTerms& terms, const LaplacianWeights& weights, const std::vector<int>& position)
+{
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int v = 0; v < terms.vertex_count; ++v) {
+        entries.emplace_back(v, v, weights.shift);
+    }
+    for (std::size_t k = 0; k < terms.springs.size(); ++k) {
+        const double weight = k < std::size_t(terms.edge_count) ? weights.edge : weights.diagonal;
+        const int a = position[terms.springs[k].a];
+        const int b = position[terms.springs[k].b];
+        if (weight != 0) {
+            entries.emplace_back(a, a, weight);
+            entries.emplace_back(b, b, weight);
+            entries.emplace_back(std::max(a, b), std::min(a, b), -weight);
+        }
+    }
+    SparseMatrix matrix(terms.vertex_count, terms.vertex_count);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+}
+
+std::vector<int> elimination_order(const EmbeddingTerms& terms)
+{
+    std::vector<std::pair<int, int>> pairs;
+    for (const SpringPair& pair : terms.springs) {
+        pairs.emplace_back(pair.a, pair.b);
+    }
+    return fill_reducing_order(make_block_matrix(terms.vertex_count, std::move(pairs)));
+}
+
+} // namespace
+
+struct GraphLaplacian::Factor
+{
+    std::vector<int> order;
+    Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> cholesky;
+};
+
+GraphLaplacian::GraphLaplacian(const EmbeddingTerms& terms, const LaplacianWeights& weights)
+    : factor_(std::make_unique<Factor>())
+{
+    factor_->order = elimination_order(terms);
+    std::vector<int> position(factor_->order.size());
+    for (std::size_t k = 0; k < position.size(); ++k) {
+        position[factor_->order[k]] = static_cast<int>(k);
+    }
+    factor_->cholesky.compute(laplacian(terms, weights, position));
+    expects(factor_->cholesky.info() == Eigen::Success, "GraphLaplacian: weights that make it positive definite");
+}
+
+GraphLaplacian::~GraphLaplacian() = default;
+
+Eigen::MatrixXd GraphLaplacian::solve(const Eigen::MatrixXd& right_sides) const
+{
+    const Eigen::MatrixXd ordered = right_sides(factor_->order, Eigen::all);
+    const Eigen::MatrixXd solution = factor_->cholesky.solve(ordered);
+    Eigen::MatrixXd out(right_sides.rows(), right_sides.cols());
+    out(factor_->order, Eigen::all) = solution;
+    return out;
+}
+
+} // namespace rhombloom

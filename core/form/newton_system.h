@@ -1,0 +1,40 @@
+#pragma once
+
+#include "core/form/embedding_energy.h"
+#include "core/form/line_search.h"
+#include "core/form/linear_solver.h"
+
+namespace rhombloom {
+
+//! \brief The linear systems of one minimisation: the pattern and its symbolic factorisation are made once.
+class NewtonSystem
+{
+public:
+    NewtonSystem(const EmbeddingTerms& terms, int threads);
+
+    //! \brief Newton's direction with the exact Hessian.
+    //! \details Only where that is not positive definite, a share of its indefinite part is removed: raised until the
+    //! factorisation succeeds, lowered after every success.
+    Eigen::VectorXd direction(const Iterate& iterate);
+
+    //! \brief Factor a Hessian whose hinges change their stiffness gradually (HessianOptions), damped if need be.
+    //! \return false if nothing made it positive definite.
+    bool factor_blurred(const Iterate& iterate, HessianOptions options);
+
+    //! \brief Solve with what was factored last.
+    Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const;
+
+private:
+    bool factor(const Iterate& iterate, const HessianOptions& options);
+    void lower_damping();
+    void raise_damping();
+
+    const EmbeddingTerms& terms_;
+    HessianPattern pattern_;
+    BlockMatrix hessian_;
+    LinearSolver solver_;
+    double damping_ = 0;
+    double shift_;
+};
+
+} // namespace rhombloom

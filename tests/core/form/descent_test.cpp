@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include "core/form/graph_laplacian.h"
+#include "core/form/limited_memory.h"
+#include "core/form/minimise.h"
+#include "tests/core/form/triangulations.h"
+
+namespace rhombloom {
+namespace {
+
+using Eigen::VectorXd;
+
+EmbeddingTerms terms_of(const Surface& surface)
+{
+    return embedding_terms(surface, {}, {});
+}
+
+VectorXd positions(const Surface& surface)
+{
+    VectorXd x(3 * surface.n_vertices());
+    for (const Vertex v : surface.vertices()) {
+        x.segment<3>(3 * v.idx()) = surface.point(v) / Element{}.la;
+    }
+    return x;
+}
+
+TEST(GraphLaplacian, SolvesItsEquations)
+{
+    const EmbeddingTerms terms = terms_of(shapes::ball_surface(2));
+    const LaplacianWeights weights{3, 0.5, 0.1};
+    const Eigen::MatrixXd right = Eigen::MatrixXd::Random(terms.vertex_count, 2);
+    const Eigen::MatrixXd x = GraphLaplacian(terms, weights).solve(right);
+    Eigen::MatrixXd product = weights.shift * x;
+    for (std::size_t k = 0; k < terms.springs.size(); ++k) {
+        const SpringPair& pair = terms.springs[k];
+        const double weight = k < std::size_t(terms.edge_count) ? weights.edge : weights.diagonal;
+        product.row(pair.a) += weight * (x.row(pair.a) - x.row(pair.b));
+        product.row(pair.b) += weight * (x.row(pair.b) - x.row(pair.a));
+    }
+    EXPECT_LT((product - right).norm(), 1e-10 * right.norm());
+}
+
+TEST(LimitedMemory, SolvesAQuadraticOfAsManyUnknownsAsItRemembers)
+{
+    const VectorXd stiffness = VectorXd::LinSpaced(6, 1, 100);
+    LimitedMemory memory(6);
+    VectorXd x = VectorXd::Ones(6);
+    VectorXd gradient = stiffness.cwiseProduct(x);
+    for (int k = 0; k < 7; ++k) {
+        const VectorXd d = memory.empty() ? VectorXd(-gradient) : memory.direction(gradient);
+        const double exact = -d.dot(gradient) / d.dot(stiffness.cwiseProduct(d));
+        memory.remember(exact * d, stiffness.cwiseProduct(exact * d));
+        x += exact * d;
+        gradient = stiffness.cwiseProduct(x);
+    }
+    EXPECT_LT(x.norm(), 1e-6);
+}
+
+TEST(LimitedMemory, WithTheInverseHessianAsSeedIsNewtonsMethod)
+{
+    const VectorXd stiffness = VectorXd::LinSpaced(6, 1, 100);
+    const VectorXd gradient = VectorXd::Ones(6);
+    const VectorXd d =
+        LimitedMemory(3).direction(gradient, [&](const VectorXd& g) { return VectorXd(g.cwiseQuotient(stiffness)); });
+    EXPECT_LT((d + gradient.cwiseQuotient(stiffness)).norm(), 1e-15);
+}
+
+TEST(EmbeddingHessian, BlurLeavesHingesFarFromFlatAsTheyAre)
+{
+    Surface surface = shapes::ball_surface(0);
+    ASSERT_TRUE(embed(surface, {}).converged); // now all its hinges are convex by 20 degrees and more
+    const EmbeddingTerms terms = terms_of(surface);
+    HessianPattern pattern;
+    BlockMatrix exact = hessian_matrix(terms, pattern);
+    BlockMatrix blurred = exact;
+    BlockMatrix floored = exact;
+    embedding_hessian(terms, pattern, positions(surface), {}, exact);
+    embedding_hessian(terms, pattern, positions(surface), {0, 1e-5, 0}, blurred);
+    embedding_hessian(terms, pattern, positions(surface), {0, 1e-5, 0.5}, floored);
+    const auto map = [](const BlockMatrix& m) { return Eigen::Map<const VectorXd>(m.value.data(), m.value.size()); };
+    EXPECT_LT((map(blurred) - map(exact)).norm(), 1e-6 * map(exact).norm());
+    EXPECT_GT((map(floored) - map(exact)).norm(), 1e-3 * map(exact).norm());
+}
+
+// On a surface that counts as large the same shape has to come out by the other way.
+TEST(Minimise, LargeSurfacesConvergeInFewIterations)
+{
+    const Surface surface = shapes::ball_surface(4);
+    const EmbeddingTerms terms = terms_of(surface);
+    ASSERT_TRUE(is_large(terms));
+    Iterate iterate = iterate_at(terms, positions(surface));
+    const MinimiseResult result = minimise(terms, iterate, {});
+    EXPECT_EQ(result.reason, StopReason::Converged);
+    EXPECT_LT(result.iterations, 250);
+    EXPECT_NEAR(iterate.energy, 229.2594380267, 1e-8); // plain L-BFGS ends there as well
+}
+
+} // namespace
+} // namespace rhombloom
