@@ -9,8 +9,11 @@ namespace rhombloom {
 
 namespace {
 
-//! A pixel's layers: (depth toward the eye, index into the list of faces).
-using Layers = std::vector<std::pair<float, int>>;
+//! A pixel's layers: (depth toward the eye, mm; index into the list of faces).
+using Layers = std::vector<std::pair<double, int>>;
+
+//! Closer layers touch, as the folded halves of elements round a vertex of valence two do, mm.
+constexpr double touching = 1e-4;
 
 //! All faces over a grid of pixels, every layer kept.
 class LayeredRaster
@@ -69,7 +72,7 @@ private:
                 const double w = ((b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x())) / area;
                 if (v >= 0 && w >= 0 && v + w <= 1) {
                     const double z = a.z() + v * (b.z() - a.z()) + w * (c.z() - a.z());
-                    pixels_[y * size_ + x].emplace_back(static_cast<float>(z), index);
+                    pixels_[y * size_ + x].emplace_back(z, index);
                 }
             }
         }
@@ -84,17 +87,49 @@ private:
 //! [far][near] -> pixels that say so.
 using Votes = std::vector<std::map<int, int>>;
 
+//! Layer \p i lies behind the next layer that it does not touch, and behind what touches that one.
+void vote(const Layers& layers, std::size_t i, Votes& votes)
+{
+    double next = 1e300;
+    for (std::size_t j = i + 1; j < layers.size() && layers[j].first <= next + touching; ++j) {
+        if (layers[j].first > layers[i].first + touching) {
+            next = std::min(next, layers[j].first);
+            if (layers[i].second != layers[j].second) {
+                ++votes[layers[i].second][layers[j].second];
+            }
+        }
+    }
+}
+
 Votes count_votes(const LayeredRaster& raster, std::size_t faces)
 {
     Votes votes(faces);
     for (const Layers& layers : raster.pixels()) {
-        for (std::size_t i = 1; i < layers.size(); ++i) {
-            if (layers[i - 1].second != layers[i].second) {
-                ++votes[layers[i - 1].second][layers[i].second];
-            }
+        for (std::size_t i = 0; i + 1 < layers.size(); ++i) {
+            vote(layers, i, votes);
         }
     }
     return votes;
+}
+
+//! Where faces only touch, the one seen from outside lies in front of the one seen from inside.
+void vote_for_touching(const LayeredRaster& raster, const std::vector<char>& outside, Votes& votes)
+{
+    for (const Layers& layers : raster.pixels()) {
+        for (std::size_t i = 1; i < layers.size(); ++i) {
+            int far = layers[i - 1].second;
+            int near = layers[i].second;
+            if (layers[i].first > layers[i - 1].first + touching || outside[far] == outside[near]) {
+                continue;
+            }
+            if (outside[far] != 0) {
+                std::swap(far, near);
+            }
+            if (!votes[far].contains(near) && !votes[near].contains(far)) {
+                votes[far][near] = 1;
+            }
+        }
+    }
 }
 
 //! Keeps the stronger opinion of each pair.
@@ -157,11 +192,15 @@ std::vector<Face> painter_order(const Scene& scene, const std::vector<Face>& fac
     }
     const LayeredRaster raster(scene, faces);
     std::vector<double> depths;
+    std::vector<char> outside;
     for (const Face f : faces) {
         depths.push_back(depth(scene.camera, element_centre(*scene.surface, f)));
+        outside.push_back(from_outside(scene, f));
     }
+    Votes votes = settle(count_votes(raster, faces.size()));
+    vote_for_touching(raster, outside, votes);
     std::vector<Face> result;
-    for (const int i : sorted(settle(count_votes(raster, faces.size())), depths)) {
+    for (const int i : sorted(votes, depths)) {
         result.push_back(faces[i]);
     }
     return result;

@@ -87,6 +87,34 @@ cairo_font_face_t* load_font(const std::string& path, FT_Face& face)
 
 } // namespace
 
+namespace {
+
+Vec2 rounded(const Vec2& p, double unit)
+{
+    return (p / unit).array().round() * unit;
+}
+
+//! To 1/16 point, 0.02 mm: such numbers pack well. A corner that would vanish that way, because it falls on a
+//! neighbour or in line with both, keeps the finer place that cairo can write.
+Polygon on_grid(const Polygon& points, bool closed)
+{
+    Polygon result;
+    for (const Vec2& p : points) {
+        result.push_back(rounded(p, 1.0 / 16));
+    }
+    const std::size_t n = points.size();
+    for (std::size_t i = 0; closed && i < n; ++i) {
+        const Vec2 in = result[i] - result[(i + n - 1) % n];
+        const Vec2 out = result[(i + 1) % n] - result[i];
+        if (in.x() * out.y() == in.y() * out.x()) {
+            result[i] = rounded(points[i], 1.0 / 256);
+        }
+    }
+    return result;
+}
+
+} // namespace
+
 struct PdfCanvas::State
 {
     std::string bytes;
@@ -114,8 +142,8 @@ struct PdfCanvas::State
     void path(const Polygon& points, bool close) const
     {
         cairo_new_path(cr);
-        for (const Vec2& p : points) { // to 1/16 point, 0.02 mm: such numbers pack well
-            cairo_line_to(cr, std::round(16 * p.x()) / 16, std::round(16 * p.y()) / 16);
+        for (const Vec2& p : on_grid(points, close)) {
+            cairo_line_to(cr, p.x(), p.y());
         }
         if (close) {
             cairo_close_path(cr);
