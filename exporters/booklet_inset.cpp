@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "exporters/booklet_steps.h"
 #include "exporters/figure_hooks.h"
@@ -107,38 +108,61 @@ void place_insets(const Replay& replay, const AssemblyPlan& plan, std::vector<St
 
 namespace {
 
-//! What an inset shows, back to front: pieces near the element, with their hooks, over plain elements behind it.
+//! Does the polygon reach into the disc about the origin?
+bool meets_disc(const Polygon& p, double radius)
+{
+    bool inside = true; // is the origin
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const Vec2 a = p[i];
+        const Vec2 side = p[(i + 1) % p.size()] - a;
+        const double t = std::clamp(-a.dot(side) / std::max(1e-12, side.squaredNorm()), 0.0, 1.0);
+        if ((a + t * side).norm() < radius) {
+            return true;
+        }
+        inside = inside && side.x() * a.y() - side.y() * a.x() > 0;
+    }
+    return inside;
+}
+
+//! What an inset shows, back to front: the element and what it is joined to, with their hooks, among plain elements.
 struct Detail
 {
     std::vector<Face> behind;
     std::vector<Piece> pieces;
 };
 
-Detail detail(const Scene& scene, Face own, Paint paint, double radius, const std::vector<Face>& built)
+Detail detail(const Scene& scene, const Piece& own, double radius, const std::vector<Face>& built,
+              const std::vector<Face>& joined)
 {
-    const std::vector<Face> round = faces_round(*scene.surface, own);
-    std::vector<Face> shown = {own};
-    for (const Face f : built) {
-        const Polygon p = outline_of(scene, f);
-        const bool inside = ((p[0] + p[2]) / 2).norm() < radius + reach_of(p);
-        if (inside) {
-            shown.push_back(f);
-        }
-    }
+    const std::vector<Face> round = faces_round(*scene.surface, own.face);
+    const auto is_in = [](const std::vector<Face>& list, Face f) {
+        return std::find(list.begin(), list.end(), f) != list.end();
+    };
+    std::vector<Face> shown = {own.face};
+    std::copy_if(built.begin(), built.end(), std::back_inserter(shown),
+                 [&](Face f) { return meets_disc(outline_of(scene, f), radius); });
     Detail result;
     bool own_drawn = false;
     for (const Face f : painter_order(scene, shown)) {
-        const bool near = std::find(round.begin(), round.end(), f) != round.end();
-        if (f == own) {
+        if (f == own.face) {
             own_drawn = true;
-            result.pieces.push_back({f, paint});
-        } else if (near && from_outside(scene, f)) {
-            result.pieces.push_back({f, Paint::Built});
+            result.pieces.push_back(own);
+        } else if (is_in(round, f) && from_outside(scene, f)) {
+            result.pieces.push_back({f, Paint::Built, is_in(joined, f)});
         } else if (!own_drawn) { // what lies in front would hide what the detail is there to show
             result.behind.push_back(f);
         }
     }
     return result;
+}
+
+std::vector<Face> joined_faces(const Step& step, const std::vector<int>& face)
+{
+    std::vector<Face> joined;
+    for (const Join& join : step.joins) {
+        joined.emplace_back(face[join.to]);
+    }
+    return joined;
 }
 
 //! From the ring round the element in the figure to the detail.
@@ -170,7 +194,7 @@ void draw_inset(PdfCanvas& canvas, const BookletSources& sources, int k, const s
         }
     }
     const Paint paint = step.kind == StepKind::Remove ? Paint::Removed : Paint::Next;
-    const Detail shown = detail(scene, own, paint, inset.radius, built);
+    const Detail shown = detail(scene, {own, paint}, inset.radius, built, joined_faces(step, face));
     draw_leader(canvas, inset, place.centre + project(place.camera, inset.camera.look_at),
                 inset.radius * place.camera.scale / inset.camera.scale);
     canvas.disc(inset.centre, inset.radius, 0xFFFFFF, {0.8, 0x404040, 0});
