@@ -42,22 +42,35 @@ std::vector<std::vector<int>> batches(const BuildState& state, const BuildHistor
     return result;
 }
 
-std::size_t next_batch(const BuildState& state, const Target& target, const std::vector<std::vector<int>>& waiting)
+std::size_t next_batch(const BuildState& state, const BuildHistory& history, const Target& target,
+                       const std::vector<std::vector<int>>& waiting)
 {
+    const auto touches = [&](const std::vector<int>& batch) {
+        return std::any_of(batch.begin(), batch.end(), [&](int e) { return !missing_joins(state, target, e).empty(); });
+    };
+    const auto component = [&](std::size_t i) { return history.component[waiting[i].front()]; };
+    std::size_t first = waiting.size(); // that touches
     for (std::size_t i = 0; i < waiting.size(); ++i) {
-        if (std::any_of(waiting[i].begin(), waiting[i].end(),
-                        [&](int e) { return !missing_joins(state, target, e).empty(); })) {
+        if (!touches(waiting[i])) {
+            continue;
+        }
+        first = std::min(first, i);
+        std::size_t k = 0; // would another batch of the component have to wait?
+        while (k < waiting.size() && (component(k) != component(i) || touches(waiting[k]))) {
+            ++k;
+        }
+        if (k == waiting.size()) {
             return i;
         }
     }
-    return 0;
+    return first == waiting.size() ? 0 : first;
 }
 
 int chapter_of(const BuildState& state, const BuildHistory& history, const Target& target)
 {
     const auto coming = batches(state, history, target);
     if (!coming.empty()) {
-        return history.component[coming[next_batch(state, target, coming)].front()];
+        return history.component[coming[next_batch(state, history, target, coming)].front()];
     }
     return state.last < 0 ? 0 : history.component[state.last];
 }

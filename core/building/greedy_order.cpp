@@ -113,76 +113,20 @@ private:
     int& view_;
 };
 
-//! What the target leaves out because a later one takes it away again and \p closed says not to build it.
-std::vector<char> left_open(const BuildHistory& history, std::size_t target, const std::vector<char>& closed)
-{
-    std::vector<char> out(history.element_count(), 0);
-    for (int e = history.final_count; e < history.element_count(); ++e) {
-        for (std::size_t t = target; t + 1 < history.targets.size(); ++t) {
-            const bool vanishes = history.targets[t].has(e) && !history.targets[t + 1].has(e);
-            out[e] |= vanishes && !closed[t];
-        }
-    }
-    return out;
-}
-
-bool connected(const Target& target)
-{
-    std::vector<int> open;
-    std::vector<char> reached(target.face.size(), 0);
-    std::size_t waiting = 0;
-    for (std::size_t e = 0; e < target.face.size(); ++e) {
-        waiting += target.has(static_cast<int>(e)) ? 1 : 0;
-        if (open.empty() && target.has(static_cast<int>(e))) {
-            open.push_back(static_cast<int>(e));
-            reached[e] = 1;
-        }
-    }
-    for (; !open.empty(); --waiting) {
-        const int e = open.back();
-        open.pop_back();
-        for (const Port& port : target.ports[e]) {
-            if (port.element >= 0 && !reached[port.element]) {
-                reached[port.element] = 1;
-                open.push_back(port.element);
-            }
-        }
-    }
-    return waiting == 0;
-}
-
 } // namespace
 
-std::vector<std::size_t> first_island(const BuildHistory& history, const std::vector<char>& closed)
-{
-    for (std::size_t t = 0; t < history.targets.size(); ++t) {
-        if (connected(without(history.targets[t], left_open(history, t, closed)))) {
-            continue;
-        }
-        std::vector<std::size_t> remedies;
-        for (std::size_t later = t; later + 1 < history.targets.size(); ++later) {
-            if (!closed[later]) {
-                remedies.push_back(later);
-            }
-        }
-        return remedies;
-    }
-    return {};
-}
-
-std::vector<Step> greedy_order(const PlanSources& sources, const std::vector<char>& closed, const Taste& taste)
+std::vector<Step> greedy_order(const PlanSources& sources, const std::vector<Target>& targets, const Taste& taste)
 {
     const BuildHistory& history = sources.history;
     BuildState state = empty_state(history);
     int view = -1;
-    for (std::size_t t = 0; t < history.targets.size(); ++t) {
-        const Target target = without(history.targets[t], left_open(history, t, closed));
+    for (const Target& target : targets) {
         reopen(state, target, chapter_of(state, history, target));
         Sight sight(sources.coverage(target.stage));
         Greedy greedy(history, target, taste, sight, state, view);
         for (auto waiting = batches(state, history, target); !waiting.empty();
              waiting = batches(state, history, target)) {
-            greedy.build(waiting[next_batch(state, target, waiting)]);
+            greedy.build(waiting[next_batch(state, history, target, waiting)]);
         }
     }
     return std::move(state.steps);

@@ -21,8 +21,10 @@ std::vector<Step> paper_order(const PlanSources& sources);
 //! \brief Elements of a target that are built in one go: of one component and connected.
 std::vector<std::vector<int>> batches(const BuildState& state, const BuildHistory& history, const Target& target);
 
-//! \brief The batch to build next: the first that touches what is there; the first of all when nothing does.
-std::size_t next_batch(const BuildState& state, const Target& target, const std::vector<std::vector<int>>& waiting);
+//! \brief The batch to build next: the first that touches what is there and whose component can be finished in one go;
+//! else the first that touches; the first of all when nothing does.
+std::size_t next_batch(const BuildState& state, const BuildHistory& history, const Target& target,
+                       const std::vector<std::vector<int>>& waiting);
 
 //! \brief The component whose chapter the change to \p target belongs to.
 int chapter_of(const BuildState& state, const BuildHistory& history, const Target& target);
@@ -35,13 +37,23 @@ struct Taste
     double dangling = 1; //!< not hanging by one side only
 };
 
-//! \brief Greedy order: most built neighbours first, in the view that is held, beside the last element.
-//! \param closed by target: are its temporary elements built and removed again (else the shape stays open there)?
-std::vector<Step> greedy_order(const PlanSources& sources, const std::vector<char>& closed, const Taste& taste);
+//! \brief Where a later target takes elements away: a hole that can be left open from the start, or closed and
+//! reopened.
+struct Holes
+{
+    int count = 0;
+    std::vector<int> of; //!< by element: the hole it closes for a time; -1: it stays
+};
 
-//! \brief With these closings, does leaving out what will be removed again tear a target into islands? Then the targets
-//! that could be closed to mend it, nearest first; empty: nothing falls apart.
-std::vector<std::size_t> first_island(const BuildHistory& history, const std::vector<char>& closed);
+Holes holes(const BuildHistory& history);
+
+//! \brief The targets of the history with all holes open that are not \p closed (by hole).
+//! \details Where that tears a target into pieces, the one that goes on from what is built is kept; the others wait
+//! until a later component joins them.
+std::vector<Target> open_targets(const BuildHistory& history, const Holes& holes, const std::vector<char>& closed);
+
+//! \brief Greedy order: most built neighbours first, in the view that is held, beside the last element.
+std::vector<Step> greedy_order(const PlanSources& sources, const std::vector<Target>& targets, const Taste& taste);
 
 //! \brief The best plan found: several tastes and choices of what to close, scored (see the source).
 AssemblyPlan best_plan(const PlanSources& sources);

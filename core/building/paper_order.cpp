@@ -185,7 +185,7 @@ std::vector<Step> paper_order(const PlanSources& sources)
         const Spiral spiral{stage_surface(sources.replay, target.stage), history, target, state};
         for (auto waiting = batches(state, history, target); !waiting.empty();
              waiting = batches(state, history, target)) {
-            build_batch(spiral, waiting[next_batch(state, target, waiting)]);
+            build_batch(spiral, waiting[next_batch(state, history, target, waiting)]);
         }
     }
     return std::move(state.steps);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "core/building/viewpoints.h"
 #include "core/model/angular_defect.h"
@@ -166,21 +167,55 @@ std::string at(std::size_t k)
     return "step " + std::to_string(k + 1) + ": ";
 }
 
-bool only_hard_elements(const Replay& replay, const Element& element, int stage)
+//! The elements that a chapter inserts from step \p k on.
+std::vector<char> rest_of_chapter(const AssemblyPlan& plan, std::size_t k, std::size_t elements)
 {
-    const Surface& surface = stage_surface(replay, stage);
-    for (const Face f : surface.faces()) {
-        const bool hard = std::any_of(surface.cfv_begin(f), surface.cfv_end(f), [&](Vertex v) {
-            return !surface.is_boundary(v) && angular_defect(surface, element, v) < -1e-9;
-        });
-        if (!hard) {
-            return false;
+    std::vector<char> rest(elements, 0);
+    const Step& first = plan.steps[k];
+    for (; k < plan.steps.size(); ++k) {
+        const Step& step = plan.steps[k];
+        if (step.kind == StepKind::Insert) {
+            if (step.stage != first.stage || step.component != first.component) {
+                break;
+            }
+            rest[step.element] = 1;
         }
     }
-    return true;
+    return rest;
 }
 
-std::string insert_problem(const Step& step, const Table& table, bool hard, bool unavoidable)
+//! Did the hole that the chapter found round the step's element hold one at no vertex of negative defect, which could
+//! have been the plug instead?
+bool has_easier_plug(const Replay& replay, const AssemblyPlan& plan, const Step& step, const std::vector<char>& rest,
+                     Hardness& hardness)
+{
+    const Surface& surface = stage_surface(replay, step.stage);
+    const std::vector<int> face = faces_of_elements(replay, plan, step.stage);
+    std::vector<int> element(surface.n_faces(), -1);
+    for (std::size_t e = 0; e < face.size(); ++e) {
+        if (face[e] >= 0 && rest[e]) {
+            element[face[e]] = static_cast<int>(e);
+        }
+    }
+    std::vector<Face> open = {Face(face[step.element])};
+    element[face[step.element]] = -1;
+    while (!open.empty()) {
+        const Face f = open.back();
+        open.pop_back();
+        for (const Face g : surface.ff_range(f)) {
+            const int e = std::exchange(element[g.idx()], -1);
+            if (e >= 0 && !hardness({StepKind::Insert, e, {}, step.component, step.stage})) {
+                return true;
+            }
+            if (e >= 0) {
+                open.push_back(g);
+            }
+        }
+    }
+    return false;
+}
+
+std::string insert_problem(const Step& step, const Table& table, bool hard_plug)
 {
     if (table.present[step.element]) {
         return "H4: element " + std::to_string(step.element) + " is there already";
@@ -188,7 +223,7 @@ std::string insert_problem(const Step& step, const Table& table, bool hard, bool
     if (step.joins.empty() && table.parts > 0) {
         return "H1: element " + std::to_string(step.element) + " touches nothing";
     }
-    if (step.joins.size() == 4 && hard && !unavoidable) {
+    if (hard_plug) {
         return "H6: element " + std::to_string(step.element) + " is plugged in at a vertex of negative defect";
     }
     return {};
@@ -230,13 +265,16 @@ std::vector<std::string> plan_problems(const Replay& replay, const Element& elem
     Hardness hardness(replay, element, plan);
     std::set<std::pair<int, int>> chapters;
     std::pair<int, int> chapter{-1, -1};
+    std::vector<char> rest;
     for (std::size_t k = 0; k < plan.steps.size(); ++k) {
         const Step& step = plan.steps[k];
         std::string problem;
         if (step.kind == StepKind::Insert) {
-            const bool plug = step.joins.size() == 4 && hardness(step);
-            problem = insert_problem(step, table, plug, plug && only_hard_elements(replay, element, step.stage));
             const std::pair<int, int> now{step.stage, step.component};
+            rest = now == chapter ? std::move(rest) : rest_of_chapter(plan, k, table.present.size());
+            problem = insert_problem(step, table,
+                                     step.joins.size() == 4 && hardness(step) &&
+                                         has_easier_plug(replay, plan, step, rest, hardness));
             if (now != chapter && !chapters.insert(now).second) {
                 problem = "H5: component " + std::to_string(step.component) + " is taken up again";
             }
