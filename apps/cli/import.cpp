@@ -1,12 +1,16 @@
 #include <filesystem>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/cli/commands.h"
 #include "apps/cli/console.h"
 #include "core/design/design_file.h"
 #include "core/design/mesh_import/mesh_import.h"
 #include "core/text.h"
 #include "exporters/mesh_reader.h"
+#include "exporters/mesh_writer.h"
 #include "exporters/save.h"
+#include "exporters/sha256.h"
 
 namespace rhombloom::cli {
 
@@ -16,40 +20,135 @@ struct ImportArguments
 {
     std::string mesh;
     std::string output;
-    ImportOptions import;
+    std::optional<double> lb;
+    std::optional<double> alpha_deg;
+    std::optional<double> thickness;
+    ImportSize size;
+    bool json = false;
 };
+
+//! The element's proportions are the usual ones where nothing else is asked for.
+Expected<Element> element(const ImportArguments& arguments)
+{
+    Element result;
+    const double ratio = result.lb / result.la;
+    result.la = arguments.size.la.value_or(result.la);
+    result.lb = arguments.lb.value_or(ratio * result.la);
+    result.alpha = arguments.alpha_deg ? radians(*arguments.alpha_deg) : result.alpha;
+    result.thickness = arguments.thickness.value_or(result.thickness);
+    if (auto ok = check(result); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    return result;
+}
+
+std::string in_la(double mm, const ImportReport& report)
+{
+    return to_fixed(mm / report.la, 2) + " la (" + to_fixed(mm, 1) + " mm)";
+}
+
+std::string as_text(const ImportedMesh& made, const std::string& design)
+{
+    const ImportReport& r = made.report;
+    std::string text;
+    for (const std::string& repair : r.repairs) {
+        text += "repaired: " + repair + "\n";
+    }
+    const Vec3 size = bounds(made.target).sizes();
+    text += std::to_string(r.elements) + " elements of la " + to_fixed(r.la, 2) + " mm (" +
+            std::to_string(r.elements_asked) + " asked for), target " + to_fixed(size.x(), 0) + " x " +
+            to_fixed(size.y(), 0) + " x " + to_fixed(size.z(), 0) + " mm\n";
+    text += "from the elements to the target: rms " + in_la(r.distance.to_target.rms, r) + ", largest " +
+            in_la(r.distance.to_target.max, r) + "\n";
+    text += "from the target to the elements: rms " + in_la(r.distance.from_target.rms, r) + ", largest " +
+            in_la(r.distance.from_target.max, r) + "\n";
+    text += "largest stretch " + to_fixed(100 * r.embedding.max_stretch, 2) + " %, angular defects " +
+            to_fixed(degrees(r.defects.min), 1) + " to " + to_fixed(degrees(r.defects.max), 1) + " degrees, " +
+            std::to_string(r.hard_nodes) + " nodes hard to hook\n";
+    return text + "wrote " + design + "\n";
+}
+
+nlohmann::ordered_json as_json(const Deviation& deviation, double la)
+{
+    return {{"rms_mm", deviation.rms},
+            {"max_mm", deviation.max},
+            {"rms_la", deviation.rms / la},
+            {"max_la", deviation.max / la}};
+}
+
+std::string as_json(const ImportedMesh& made)
+{
+    const ImportReport& r = made.report;
+    const nlohmann::ordered_json root = {{"elements", r.elements},
+                                         {"elements_asked", r.elements_asked},
+                                         {"la_mm", r.la},
+                                         {"to_target", as_json(r.distance.to_target, r.la)},
+                                         {"from_target", as_json(r.distance.from_target, r.la)},
+                                         {"max_stretch", r.embedding.max_stretch},
+                                         {"converged", r.embedding.converged},
+                                         {"min_defect_deg", degrees(r.defects.min)},
+                                         {"max_defect_deg", degrees(r.defects.max)},
+                                         {"hard_nodes", r.hard_nodes},
+                                         {"scale", r.scale},
+                                         {"shift_mm", {r.shift.x(), r.shift.y(), r.shift.z()}},
+                                         {"repairs", r.repairs}};
+    return root.dump(1) + "\n";
+}
+
+Expected<ImportedMesh> make(const ImportArguments& arguments, Progress& progress)
+{
+    constexpr std::size_t max_bytes = 2'000'000'000;
+    ImportOptions options;
+    const auto usable = element(arguments);
+    if (!usable) {
+        return tl::make_unexpected(usable.error());
+    }
+    options.element = *usable;
+    options.size = arguments.size;
+    options.progress = [&](const std::string& what) {
+        progress.show(what);
+        return true;
+    };
+    const auto file = [&]() -> Expected<MeshFile> {
+        progress.show("reading " + arguments.mesh);
+        const auto bytes = load_file(arguments.mesh, max_bytes);
+        return bytes ? read_mesh(arguments.mesh, *bytes) : Expected<MeshFile>(tl::make_unexpected(bytes.error()));
+    }();
+    if (!file) {
+        return tl::make_unexpected(file.error());
+    }
+    options.mm_per_unit = file->metres ? 1000 : 1;
+    return import_mesh(file->mesh, options);
+}
+
+//! The target is stored beside the design, under its content's hash.
+Expected<void> store(ImportedMesh& made, const std::string& output, const std::string& title)
+{
+    const std::string target = write_ply(made.target);
+    made.operation.target_sha256 = sha256(target);
+    made.operation.target = "target-" + made.operation.target_sha256.substr(0, 16) + ".ply";
+    Design design;
+    design.title = title;
+    design.element = made.element;
+    design.operations = {made.operation};
+    const auto beside = std::filesystem::path(output).parent_path() / made.operation.target;
+    if (auto ok = save_file(beside.string(), target); !ok) {
+        return ok;
+    }
+    return save_file(output, write_design(design));
+}
 
 Expected<int> run_import(const ImportArguments& arguments)
 {
     Progress progress;
-    constexpr std::size_t max_bytes = 2'000'000'000;
-    const auto bytes = load_file(arguments.mesh, max_bytes);
-    if (!bytes) {
-        return tl::make_unexpected(bytes.error());
-    }
-    const auto file = read_mesh(arguments.mesh, *bytes);
-    if (!file) {
-        return refuse(arguments.mesh + ": " + file.error().message);
-    }
-    const auto made = import_mesh(file->mesh, arguments.import);
+    auto made = make(arguments, progress);
     if (!made) {
-        return refuse(arguments.mesh + ": " + made.error().message);
+        return tl::make_unexpected(Error{arguments.mesh + ": " + made.error().message, made.error().kind});
     }
-    Design design;
-    design.title = std::filesystem::path(arguments.mesh).stem().string();
-    design.element = made->element;
-    design.operations = {made->operation};
-    if (auto ok = save_file(arguments.output, write_design(design)); !ok) {
+    if (auto ok = store(*made, arguments.output, std::filesystem::path(arguments.mesh).stem().string()); !ok) {
         return tl::make_unexpected(ok.error());
     }
-    const ImportReport& r = made->report;
-    return print(std::to_string(r.elements) + " elements, distance rms " +
-                 to_fixed(r.distance.to_target.rms / r.la, 3) + " / " + to_fixed(r.distance.from_target.rms / r.la, 3) +
-                 " la, max " + to_fixed(r.distance.to_target.max / r.la, 2) + " / " +
-                 to_fixed(r.distance.from_target.max / r.la, 2) + ", stretch " +
-                 to_fixed(100 * r.embedding.max_stretch, 2) + " %, converged " + std::to_string(r.embedding.converged) +
-                 " its " + std::to_string(r.embedding.iterations) + "\n")
-        .map([] { return 0; });
+    return print(arguments.json ? as_json(*made) : as_text(*made, arguments.output)).map([] { return 0; });
 }
 
 } // namespace
@@ -57,11 +156,20 @@ Expected<int> run_import(const ImportArguments& arguments)
 void add_import(CLI::App& app, Run& run)
 {
     auto* command = app.add_subcommand("import", "Make a design from a mesh: OBJ, PLY, STL, OFF or GLB.");
-    command->footer("Example: rhombloom import vase.obj -o vase.json --elements 600");
+    command->footer(
+        "Example: rhombloom import vase.obj -o vase.json --elements 600 --height 400\n"
+        "Give at most two of --elements, --la and --height; the third follows. The repaired target is stored "
+        "beside the design.");
     auto arguments = std::make_shared<ImportArguments>();
     command->add_option("MESH", arguments->mesh, "file with the target")->required();
     command->add_option("-o,--output", arguments->output, "design file to write")->required();
-    command->add_option("--elements", arguments->import.size.elements, "how many elements to use");
+    command->add_option("--elements", arguments->size.elements, "how many elements (600)");
+    command->add_option("--la", arguments->size.la, "short side of the element, mm (80)")->check(CLI::PositiveNumber);
+    command->add_option("--height", arguments->size.height, "of the target, along z, mm")->check(CLI::PositiveNumber);
+    command->add_option("--lb", arguments->lb, "long side, mm (1.1 la)")->check(CLI::PositiveNumber);
+    command->add_option("--alpha", arguments->alpha_deg, "acute angle, degrees (63.435)");
+    command->add_option("--thickness", arguments->thickness, "of the sheet, mm (0.5)");
+    command->add_flag("--json", arguments->json, "machine-readable report");
     command->callback([&run, arguments] { run = [arguments] { return run_import(*arguments); }; });
 }
 

@@ -82,8 +82,8 @@ Distance distance(const Surface& surface, const MeshTree& target)
 
 Eigen::Affine3d fit(const Surface& surface, const MeshTree& target, bool rescale)
 {
-    constexpr int rounds = 15;
-    const std::vector<Vec3> points = sample(element_triangles(surface), samples / 3);
+    constexpr int rounds = 6;
+    const std::vector<Vec3> points = sample(element_triangles(surface), samples / 4);
     Eigen::Affine3d pose = Eigen::Affine3d::Identity();
     Eigen::Matrix3Xd from(3, points.size());
     Eigen::Matrix3Xd to(3, points.size());

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/design/mesh_import/join_network.h"
+#include "core/design/mesh_import/mesh_repair.h"
 #include "core/design/mesh_import/network.h"
-#include "core/design/mesh_import/remesh.h"
-#include "core/design/pose.h"
+#include "core/design/mesh_import/network_search.h"
 #include "core/model/angular_defect.h"
 #include "core/model/validity.h"
 #include "core/text.h"
@@ -15,69 +14,145 @@ namespace rhombloom {
 
 namespace {
 
-// Diagonals are shorter at rest than on paper: the bowed long sides pull at them.
-constexpr double diagonal_share = 0.97;
+constexpr int fewest_elements = 20;
+constexpr int most_elements = 10000;
+constexpr int usual_elements = 600;
+constexpr int most_acute_corners = 5; // that makers report at one node
+constexpr double defect_margin = radians(10);
 
-double triangle_edge(const Element& element)
+//! What the sizes asked for come to.
+struct Sizing
 {
-    return diagonal_share * long_diagonal(element);
+    double factor = 1; //!< from file coordinates to the mm in which the network is searched
+    int elements = 0;
+    bool rescale = true; //!< the target may be scaled to suit the elements
+    double height = 0;   //!< mm that the result is scaled to in the end, elements and all; 0: it is not
+};
+
+double element_area(const Element& element)
+{
+    return area_per_element(triangle_edge(element));
 }
 
-//! Mean area of a target per element, when the triangles have sides of length \p edge.
-double area_per_element(double edge)
+Expected<Sizing> sizing(const TriangleMesh& mesh, const ImportOptions& options)
 {
-    return edge * edge * std::sqrt(3.0) / 6;
+    const ImportSize& size = options.size;
+    if (size.elements && size.la && size.height) {
+        return refuse("elements, la and height are all given: two of them settle the third, leave one out");
+    }
+    const double own_height = bounds(mesh).sizes().z();
+    const double own_area = area(mesh);
+    Sizing result;
+    if (size.la && !size.elements) {
+        result.factor = size.height ? *size.height / own_height : options.mm_per_unit;
+        result.rescale = false;
+        const double count = own_area * result.factor * result.factor / element_area(options.element);
+        if (!(count >= fewest_elements && count <= most_elements)) {
+            return refuse("with la " + to_fixed(*size.la, 1) + " mm a target " +
+                          to_fixed(own_height * result.factor, 1) + " mm high would take " + to_fixed(count, 0) +
+                          " elements: expected " + std::to_string(fewest_elements) + " to " +
+                          std::to_string(most_elements) + "; give --elements or another --height");
+        }
+        result.elements = static_cast<int>(std::lround(count));
+        return result;
+    }
+    result.elements = size.elements.value_or(usual_elements);
+    if (result.elements < fewest_elements || result.elements > most_elements) {
+        return refuse(std::to_string(result.elements) + " elements were asked for: expected " +
+                      std::to_string(fewest_elements) + " to " + std::to_string(most_elements));
+    }
+    result.factor = std::sqrt(result.elements * element_area(options.element) / own_area);
+    result.height = size.height.value_or(0);
+    return result;
 }
 
-int max_degree(const Element& element)
+//! Multiply all lengths, the element's too.
+void rescale(ImportedMesh& result, Surface& surface, double factor)
 {
-    const double room = two_pi - permissible_defect(element).min;
-    return static_cast<int>(std::floor(room / element.alpha + 1e-9));
+    for (const Vertex v : surface.vertices()) {
+        surface.set_point(v, factor * surface.point(v));
+    }
+    transform(result.target, factor, Vec3::Zero());
+    result.element.la *= factor;
+    result.element.lb *= factor;
+    result.report.scale *= factor;
+}
+
+//! Stand the target on the ground, its middle above the origin, and the network with it.
+void stand(ImportedMesh& result, Surface& surface)
+{
+    const Eigen::AlignedBox3d box = bounds(result.target);
+    const Vec3 shift(-box.center().x(), -box.center().y(), -box.min().z());
+    for (const Vertex v : surface.vertices()) {
+        surface.set_point(v, surface.point(v) + shift);
+    }
+    transform(result.target, 1, shift);
+    result.report.shift = shift;
+}
+
+int hard_nodes(const Surface& surface, const Element& element)
+{
+    const DefectRange limits = permissible_defect(element);
+    int count = 0;
+    for (const Vertex v : surface.vertices()) {
+        if (surface.is_boundary(v)) {
+            continue;
+        }
+        int acute = 0;
+        for (const Face f : surface.vf_range(v)) {
+            acute += corner_angle(surface, element, f, v) < pi / 2 ? 1 : 0;
+        }
+        count += acute > most_acute_corners || angular_defect(surface, element, v) < limits.min + defect_margin ? 1 : 0;
+    }
+    return count;
+}
+
+void fill_report(const Surface& surface, const FoundNetwork& found, ImportedMesh& result)
+{
+    ImportReport& report = result.report;
+    report.elements = static_cast<int>(surface.n_faces());
+    report.la = result.element.la;
+    report.defects = defect_range(surface, result.element);
+    report.hard_nodes = hard_nodes(surface, result.element);
+    report.embedding = found.embedding;
 }
 
 } // namespace
 
 Expected<ImportedMesh> import_mesh(const TriangleMesh& mesh, const ImportOptions& options)
 {
+    RepairOptions repairing;
+    repairing.elements = options.size.elements.value_or(usual_elements);
+    repairing.progress = options.progress;
+    auto repaired = repair(mesh, repairing);
+    if (!repaired) {
+        return tl::make_unexpected(repaired.error());
+    }
     ImportedMesh result;
     result.element = options.element;
-    const int wanted = options.size.elements.value_or(600);
-    const double edge = triangle_edge(result.element);
-    TriangleMesh target = mesh;
-    const double factor = std::sqrt(wanted * area_per_element(edge) / area(target));
-    transform(target, factor, Vec3::Zero());
-    const MeshTree tree(target);
-    RemeshOptions remeshing;
-    remeshing.max_degree = max_degree(result.element);
-    remeshing.edge = edge;
-    TriangleMesh triangles;
-    for (int i = 0; i < 6; ++i) {
-        triangles = remesh(i == 0 ? target : triangles, tree, remeshing);
-        const double count = 1.5 * static_cast<double>(triangles.triangles.size());
-        if (std::abs(count / wanted - 1) < 0.02) {
-            break;
-        }
-        remeshing.edge *= std::sqrt(count / wanted);
+    result.report.repairs = repaired->repairs;
+    const auto size = sizing(repaired->mesh, options);
+    if (!size) {
+        return tl::make_unexpected(size.error());
     }
-    auto surface = make_surface(join_network(triangles, tree));
-    if (!surface) {
-        return tl::make_unexpected(surface.error());
+    result.report.elements_asked = size->elements;
+    TriangleMesh& whole = repaired->mesh; // the target in all its detail: what distances are measured from
+    transform(whole, size->factor, Vec3::Zero());
+    auto found =
+        search_network(whole, result.element, {size->elements, size->rescale, options.embedding, options.progress});
+    if (!found) {
+        return tl::make_unexpected(found.error());
     }
-    result.report.embedding = embed_in_place(*surface, result.element, options.embedding);
-    const Eigen::Affine3d pose = fit(*surface, tree, true);
-    const double scale = std::cbrt(pose.linear().determinant());
-    for (const Vertex v : surface->vertices()) {
-        surface->set_point(v, pose * surface->point(v) / scale);
+    result.target = std::move(found->target);
+    result.report.scale = size->factor * found->target_scale;
+    if (size->height > 0) {
+        rescale(result, found->surface, size->height / bounds(result.target).sizes().z());
     }
-    transform(target, 1 / scale, Vec3::Zero());
-    result.target = target;
-    result.report.distance = distance(*surface, MeshTree(target));
-    result.report.la = result.element.la;
-    result.report.elements = static_cast<int>(surface->n_faces());
-    result.report.elements_asked = wanted;
-    result.report.scale = factor / scale;
-    result.report.defects = defect_range(*surface, result.element);
-    result.operation = import_of(*surface, options.id);
+    stand(result, found->surface);
+    transform(whole, result.report.scale / size->factor, result.report.shift);
+    result.report.distance = distance(found->surface, MeshTree(std::move(whole)));
+    fill_report(found->surface, *found, result);
+    result.operation = import_of(found->surface, options.id);
     return result;
 }
 

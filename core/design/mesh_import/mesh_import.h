@@ -23,6 +23,7 @@ struct ImportOptions
 {
     Element element;
     ImportSize size;
+    double mm_per_unit = 1; //!< of the file; counts only when nothing but la is given
     std::string id = "body";
     EmbedOptions embedding;
     //! Told what is being done; false stops. Empty: nobody listens.
