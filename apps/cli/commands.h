@@ -19,5 +19,6 @@ void add_shapes(CLI::App& app, Run& run);
 void add_nest(CLI::App& app, Run& run);
 void add_plan(CLI::App& app, Run& run);
 void add_import(CLI::App& app, Run& run);
+void add_studio(CLI::App& app, Run& run);
 
 } // namespace rhombloom::cli

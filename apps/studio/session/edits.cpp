@@ -1,0 +1,162 @@
+#include "apps/studio/session/edits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace rhombloom::studio {
+
+namespace {
+
+bool makes(const Operation& operation, const std::string& id)
+{
+    const auto* place = std::get_if<Place>(&operation);
+    const auto* layout = std::get_if<Layout>(&operation);
+    return (place != nullptr && place->id == id) || (layout != nullptr && layout->id == id);
+}
+
+Expected<void> check_part(const Design& design, const std::string& id)
+{
+    const auto& operations = design.operations;
+    if (std::none_of(operations.begin(), operations.end(), [&](const auto& op) { return makes(op, id); })) {
+        return refuse("there is no part \"" + id.substr(0, 60) + "\"");
+    }
+    for (const Operation& operation : operations) {
+        const auto* merge = std::get_if<Merge>(&operation);
+        if (merge != nullptr && (merge->with == id || merge->on == id)) {
+            return refuse("\"" + id + "\" is merged: change its step in the history instead");
+        }
+    }
+    return {};
+}
+
+struct Mover
+{
+    const Eigen::Isometry3d& motion;
+
+    void move(Reference& reference) const
+    {
+        if (reference.kind == Reference::Kind::Near) {
+            reference.point = motion * reference.point;
+        } else if (reference.kind == Reference::Kind::Toward) {
+            reference.point = motion.linear() * reference.point;
+        }
+    }
+    void operator()(Place& op) const
+    {
+        op.position = motion * op.position;
+        op.rotation_deg = euler_deg(motion.linear() * rotation_matrix(op.rotation_deg));
+    }
+    void operator()(Layout& op) const { op.position = motion * op.position; }
+    void operator()(Merge&) const {}
+    void operator()(Extrude& op) const
+    {
+        move(op.apex);
+        op.by = motion.linear() * op.by;
+    }
+    void operator()(Open& op) const
+    {
+        for (Reference& reference : op.elements) {
+            move(reference);
+        }
+    }
+    void operator()(Flip& op) const { move(op.element); }
+    template <class Other>
+    void operator()(Other&) const
+    {
+    }
+};
+
+struct Subject
+{
+    template <class Op>
+    const std::string& operator()(const Op& op) const
+    {
+        if constexpr (requires { op.on; }) {
+            return op.on;
+        } else {
+            return op.id;
+        }
+    }
+};
+
+//! Micrometres and microdegrees: what a person sets by hand stays readable in the file.
+double tidy(double x)
+{
+    constexpr double millionth = 1e6;
+    return std::round(x * millionth) / millionth + 0.0;
+}
+
+} // namespace
+
+const std::string& subject(const Operation& operation)
+{
+    return std::visit(Subject(), operation);
+}
+
+Eigen::Matrix3d rotation_matrix(const Vec3& euler_deg)
+{
+    return (Eigen::AngleAxisd(radians(euler_deg.z()), Vec3::UnitZ()) *
+            Eigen::AngleAxisd(radians(euler_deg.y()), Vec3::UnitY()) *
+            Eigen::AngleAxisd(radians(euler_deg.x()), Vec3::UnitX()))
+        .toRotationMatrix();
+}
+
+Vec3 euler_deg(const Eigen::Matrix3d& R)
+{
+    const double y = std::asin(std::clamp(-R(2, 0), -1.0, 1.0));
+    constexpr double upright = 1e-9; // the cosine below which x and z turn about the same axis
+    if (std::abs(std::cos(y)) < upright) {
+        return Vec3(0, degrees(y), degrees(std::atan2(-R(0, 1), R(1, 1)))).unaryExpr(&tidy);
+    }
+    return Vec3(degrees(std::atan2(R(2, 1), R(2, 2))), degrees(y), degrees(std::atan2(R(1, 0), R(0, 0))))
+        .unaryExpr(&tidy);
+}
+
+Expected<Design> moved_part(const Design& design, const std::string& id, const Eigen::Isometry3d& motion)
+{
+    if (auto ok = check_part(design, id); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    Design result = design;
+    for (Operation& operation : result.operations) {
+        if (subject(operation) == id) {
+            std::visit(Mover{motion}, operation);
+        }
+        if (auto* place = std::get_if<Place>(&operation); place != nullptr && place->id == id) {
+            place->position = place->position.unaryExpr(&tidy);
+        }
+    }
+    return result;
+}
+
+Expected<Design> without_part(const Design& design, const std::string& id)
+{
+    std::set<std::string> gone = {id};
+    for (const Operation& operation : design.operations) {
+        if (const auto* merge = std::get_if<Merge>(&operation); merge != nullptr && gone.contains(merge->on)) {
+            gone.insert(merge->with);
+        }
+    }
+    Design result = design;
+    std::erase_if(result.operations, [&](const Operation& op) { return gone.contains(subject(op)); });
+    if (result.operations.size() == design.operations.size()) {
+        return refuse("there is no part \"" + id.substr(0, 60) + "\"");
+    }
+    return result;
+}
+
+std::string fresh_id(const Design& design, const std::string& wish)
+{
+    const auto taken = [&](const std::string& id) {
+        return std::any_of(design.operations.begin(), design.operations.end(),
+                           [&](const Operation& op) { return makes(op, id); });
+    };
+    std::string id = wish;
+    for (int k = 2; taken(id); ++k) {
+        id = wish + " " + std::to_string(k);
+    }
+    return id;
+}
+
+} // namespace rhombloom::studio

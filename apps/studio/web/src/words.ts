@@ -1,0 +1,55 @@
+// Texts of the page: English is the key, German beside it.
+const german: Record<string, string> = {
+  'Undo': 'Zurück', 'Redo': 'Wieder', 'Select': 'Wählen', 'Pull': 'Ziehen', 'Open': 'Öffnen', 'Flip': 'Wenden',
+  'Symmetric': 'Symmetrisch', 'No symmetry': 'Keine Symmetrie', 'Mirror left and right': 'Links und rechts spiegeln',
+  'Mirror front and back': 'Vorn und hinten spiegeln', 'Axis': 'Achse', 'Fit': 'Alles zeigen', 'Help': 'Hilfe',
+  'Fabricate': 'Fertigen', 'Library': 'Formen', 'History': 'Verlauf', 'Parts': 'Teile', 'Language': 'Sprache',
+  'Dark or light': 'Dunkel oder hell', 'Colours': 'Farben', 'Sides': 'Seiten', 'Defect': 'Defekt', 'Strain': 'Dehnung',
+  'Components': 'Bestandteile', 'elements': 'Elemente', 'sheets': 'Bögen', 'min': 'min', 'Join': 'Verbinden',
+  'Keep apart': 'Getrennt lassen', 'way': 'Art', 'ways': 'Arten', 'of': 'von', 'Close': 'Schließen', 'Delete': 'Löschen',
+  'Change': 'Ändern', 'Apply': 'Übernehmen', 'Cancel': 'Abbrechen', 'New': 'Neu', 'Open file': 'Datei öffnen',
+  'Save a copy': 'Kopie sichern', 'saved': 'gesichert', 'Layout': 'Zeichnen', 'New layout': 'Neue Zeichnung',
+  'Sheets': 'Bögen', 'Booklet': 'Heft', 'Player': 'Film', 'Files': 'Dateien', 'Download kit': 'Bausatz herunterladen',
+  'Make the kit': 'Bausatz machen', 'Material': 'Material', 'Machine': 'Maschine', 'Paper': 'Papier', 'by thickness': 'nach Dicke',
+  'none in particular': 'keine bestimmte', 'Making': 'In Arbeit', 'pieces': 'Teile', 'to cut': 'zu schneiden', 'to build': 'zu bauen',
+  'Drag a shape into the scene': 'Eine Form in die Szene ziehen',
+  'Drag a shape from the library into this view to begin.': 'Zum Beginnen eine Form aus der Sammlung in diese Ansicht ziehen.',
+  'Click chooses, drag moves the chosen part, drag beside it turns the view.': 'Klicken wählt, Ziehen bewegt das gewählte Teil, Ziehen daneben dreht die Ansicht.',
+  'Press on a vertex and pull: the limb grows. Choose the brush in the library.': 'Auf eine Ecke drücken und ziehen: das Glied wächst. Den Pinsel in den Formen wählen.',
+  'Click elements to take out, then choose what for.': 'Elemente anklicken, die herausgenommen werden, dann den Zweck wählen.',
+  'Click an element to turn it over.': 'Ein Element anklicken, um es zu wenden.',
+  'Take out': 'Herausnehmen', 'lamp holder': 'Fassung', 'bulb hatch': 'Luke', 'cable': 'Kabel', 'Purpose': 'Zweck',
+  'settling': 'setzt sich', 'working': 'rechnet', 'grown': 'gewachsen', 'Suggest': 'Vorschlag', 'Do it': 'So machen',
+  'Looking for a pose that works': 'Suche eine Lage, die passt', 'No pose nearby works': 'Keine Lage in der Nähe passt',
+  'move closer by': 'näher heran um', 'move apart by': 'auseinander um', 'move aside by': 'zur Seite um', 'turn by': 'drehen um',
+  'The document was changed elsewhere; you see the newest version now.': 'Das Dokument wurde anderswo geändert; dies ist die neueste Fassung.',
+  'The studio does not answer. Start it again: everything up to the last step is saved.': 'Das Studio antwortet nicht. Bitte neu starten: alles bis zum letzten Schritt ist gesichert.',
+  'This address belongs to an earlier run of the studio. Open the address that it printed.': 'Diese Adresse gehört zu einem früheren Lauf. Bitte die neu ausgegebene Adresse öffnen.',
+  'Untitled': 'Ohne Titel', 'Title': 'Titel', 'Move': 'Bewegen', 'Turn': 'Drehen', 'Handles': 'Griffe', 'Shape': 'Form', 'Brush': 'Pinsel',
+  'Position (mm)': 'Ort (mm)', 'Rotation (degrees)': 'Drehung (Grad)', 'Pull by (mm)': 'Ziehen um (mm)', 'Candidate': 'Auswahl',
+  'Remove this step': 'Diesen Schritt entfernen', 'Change this step': 'Diesen Schritt ändern', 'element': 'Element', 'vertex': 'Ecke',
+  'front': 'vorn', 'flipped': 'gewendet', 'valence': 'Valenz', 'defect': 'Defekt', 'strain': 'Dehnung', 'opening': 'Öffnung',
+  'too much in front': '', 'compressed': 'gestaucht', 'stretched': 'gedehnt', 'saddle': 'Sattel', 'peak': 'Spitze', 'flat': 'flach',
+  'Add element': 'Element dazu', 'Place in the scene': 'In die Szene setzen', 'Drag elements; drag from side to side to connect; R turns, F flips, Delete removes.':
+    'Elemente ziehen; von Seite zu Seite ziehen verbindet; R dreht, F wendet, Entf löscht.',
+  'Keyboard': 'Tastatur', 'Everything fits the screen': 'Alles ins Bild', 'Front, side, top': 'Vorn, Seite, oben', 'Next and previous way to join': 'Nächste und vorige Verbindung',
+  'Turn the view': 'Ansicht drehen', 'drag, two fingers, arrow keys': 'ziehen, Pfeiltasten', 'Shift the view': 'Ansicht schieben', 'right drag, two fingers': 'rechts ziehen, zwei Finger',
+  'Zoom': 'Vergrößern', 'wheel, pinch, + and -': 'Rad, zwei Finger, + und -', 'Leave': 'Verlassen', 'Save to the library': 'In die Sammlung', 'My layouts': 'Meine Zeichnungen',
+  'Along the normal': 'Entlang der Normalen', 'hold Shift while pulling': 'Umschalt beim Ziehen halten', 'Delete the chosen part': 'Gewähltes Teil löschen',
+};
+
+export type Language = 'en' | 'de';
+export let language: Language = navigator.language.startsWith('de') ? 'de' : 'en';
+
+export function setLanguage(next: Language): void {
+  language = next;
+  document.documentElement.lang = next;
+}
+
+export function t(text: string): string {
+  return language === 'de' ? german[text] || text : text;
+}
+
+export function number(value: number, decimals = 0): string {
+  return value.toLocaleString(language, { maximumFractionDigits: decimals, minimumFractionDigits: decimals });
+}
