@@ -79,7 +79,8 @@ struct Layout
     std::string id;
     std::vector<LayoutElement> elements;
     std::vector<LayoutJoin> joins;
-    Vec3 position = Vec3::Zero(); //!< of the part's middle, mm
+    Vec3 position = Vec3::Zero();     //!< of the drawing's origin, mm
+    Vec3 rotation_deg = Vec3::Zero(); //!< about x, then y, then z, of the unfolded part
 };
 
 //! \brief A network of elements made from a mesh (mesh_import.h) becomes a new part named \p id.

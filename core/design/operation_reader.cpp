@@ -194,6 +194,7 @@ Expected<Operation> read_layout(ObjectReader& reader)
     layout.elements = take_list<LayoutElement>(reader, "elements", read_layout_element);
     layout.joins = take_list<LayoutJoin>(reader, "joins", read_layout_join);
     layout.position = reader.point("position_mm", layout.position);
+    layout.rotation_deg = reader.point("rotation_deg", layout.rotation_deg);
     return finished(reader, std::move(layout));
 }
 

@@ -83,6 +83,9 @@ ordered_json write(const Flip& flip)
 ordered_json write(const Layout& layout)
 {
     ordered_json out = {{"op", "layout"}, {"id", layout.id}, {"position_mm", write_point(layout.position)}};
+    if (layout.rotation_deg != Vec3::Zero()) {
+        out["rotation_deg"] = write_point(layout.rotation_deg);
+    }
     out["elements"] = ordered_json::array();
     for (const LayoutElement& drawn : layout.elements) {
         out["elements"].push_back({{"x_mm", drawn.at.x()},

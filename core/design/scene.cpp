@@ -61,7 +61,9 @@ Expected<void> add_part(const std::string& id, Surface surface, const EmbedRepor
     return {};
 }
 
-Eigen::Isometry3d pose(const Place& place)
+//! Of a Place or a Layout.
+template <class Posed>
+Eigen::Isometry3d pose(const Posed& place)
 {
     Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
     result.translate(place.position);
@@ -106,7 +108,7 @@ Expected<void> run(const Layout& layout, const Context& context)
     }
     const EmbedReport report = unfold(*surface, context.element(), context.embedding);
     for (const Vertex v : surface->vertices()) {
-        surface->set_point(v, surface->point(v) + layout.position);
+        surface->set_point(v, pose(layout) * surface->point(v));
     }
     return add_part(layout.id, std::move(*surface), report, context.scene);
 }

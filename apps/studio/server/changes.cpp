@@ -3,6 +3,7 @@
 #include "apps/studio/server/answers.h"
 #include "apps/studio/server/motion.h"
 #include "apps/studio/session/edits.h"
+#include "apps/studio/session/limits.h"
 #include "core/design/operation_file.h"
 
 namespace rhombloom::studio {
@@ -20,19 +21,25 @@ Outcome refused(const Session& session, const std::string& message)
     return {Outcome::Status::Refused, message, -1, session.snapshot()};
 }
 
-Expected<Operation> take_operation(Body& body)
+Expected<Operation> take_operation(Body& body, const Element& element)
 {
     body.require("operation");
     const nlohmann::json* value = body.take("operation");
     if (value == nullptr) {
         return tl::make_unexpected(body.finish().error());
     }
-    return read_operation(*value, "$.operation");
+    auto operation = read_operation(*value, "$.operation");
+    if (operation) {
+        if (auto ok = check_size(*operation, element); !ok) {
+            return tl::make_unexpected(ok.error());
+        }
+    }
+    return operation;
 }
 
 Outcome apply(Session& session, long revision, Body& body)
 {
-    const auto operation = take_operation(body);
+    const auto operation = take_operation(body, session.snapshot()->design.element);
     const auto ok = body.finish();
     if (!operation || !ok) {
         return refused(session, operation ? ok.error().message : operation.error().message);
@@ -42,7 +49,7 @@ Outcome apply(Session& session, long revision, Body& body)
 
 Outcome edit(Session& session, long revision, Body& body)
 {
-    const auto operation = take_operation(body);
+    const auto operation = take_operation(body, session.snapshot()->design.element);
     body.require("index");
     const int index = body.integer("index", 0, 0, most_operations);
     const auto ok = body.finish();
@@ -125,6 +132,11 @@ Outcome replace(Session& session, long revision, Body& body)
     const auto ok = body.finish();
     if (!design || !ok) {
         return refused(session, ok ? design.error().message : ok.error().message);
+    }
+    for (const Operation& operation : design->operations) {
+        if (auto fits = check_size(operation, design->element); !fits) {
+            return refused(session, fits.error().message);
+        }
     }
     return session.replace(revision, *design);
 }

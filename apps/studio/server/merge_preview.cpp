@@ -117,7 +117,7 @@ bool MergePreview::find_next()
             continue;
         }
         const EmbedReport report = embed_in_place(grafted->surface, a_, grafted->number, question_->element, {});
-        Found found{candidate, std::make_shared<Surface>(std::move(grafted->surface))};
+        Found found{candidate, report.max_stretch, std::make_shared<Surface>(std::move(grafted->surface))};
         if (settled(report)) {
             found_.push_back(std::move(found));
             return true;
@@ -143,12 +143,14 @@ MergeAnswer MergePreview::answer(const MergeQuestion& question, int candidate)
     for (const Found& found : found_) {
         result.candidates.push_back(found.candidate);
         result.candidates.back().change = {};
+        result.stretches.push_back(found.stretch);
     }
     if (candidate < static_cast<int>(found_.size())) {
         result.surface = found_[candidate].surface;
     } else if (candidate == 0 && unsettled_) {
         result.surface = unsettled_->surface;
         result.candidates.push_back(unsettled_->candidate);
+        result.stretches.push_back(unsettled_->stretch);
     } else if (result.reason.empty()) {
         result.reason = "there is no further way to join them here";
     }

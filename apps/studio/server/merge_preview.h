@@ -23,6 +23,7 @@ struct MergeAnswer
 {
     std::string reason;                          //!< why there is no such candidate; empty when there is
     std::vector<MergeCandidate> candidates = {}; //!< that settle, as far as looked for, best first
+    std::vector<double> stretches = {};          //!< largest stretch of each of them
     std::shared_ptr<const Surface> surface;      //!< merged and embedded
     bool complete = false;                       //!< no further candidate will be found
 };
@@ -38,6 +39,7 @@ private:
     struct Found
     {
         MergeCandidate candidate;
+        double stretch = 0;
         std::shared_ptr<const Surface> surface;
     };
 

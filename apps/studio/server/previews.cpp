@@ -1,10 +1,12 @@
 #include "apps/studio/server/previews.h"
 
 #include <chrono>
+#include <ctime>
 
 #include "apps/studio/server/answers.h"
 #include "apps/studio/server/geometry.h"
 #include "apps/studio/server/motion.h"
+#include "apps/studio/session/limits.h"
 #include "core/design/operation_file.h"
 
 namespace rhombloom::studio {
@@ -20,6 +22,14 @@ constexpr std::size_t most_pulls = 4;    // drags remembered: one per tab, and s
 double milliseconds_since(Clock::time_point start)
 {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+//! What this thread has computed since it began, without the time it had to wait for its turn.
+double thread_milliseconds()
+{
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
 
 //! The scene's surfaces with one part shown differently and maybe another left out.
@@ -93,11 +103,13 @@ Expected<MergeQuestion> take_question(ObjectReader& body, const Snapshot& snapsh
     return question;
 }
 
-ordered_json candidates_json(const std::vector<MergeCandidate>& candidates)
+ordered_json candidates_json(const MergeAnswer& answer)
 {
     ordered_json result = ordered_json::array();
-    for (const MergeCandidate& c : candidates) {
-        result.push_back({{"removed", c.removed_a + c.removed_b},
+    for (std::size_t k = 0; k < answer.candidates.size(); ++k) {
+        const MergeCandidate& c = answer.candidates[k];
+        result.push_back({{"max_stretch", answer.stretches[k]},
+                          {"removed", c.removed_a + c.removed_b},
                           {"seam", c.loop_size},
                           {"min_defect_deg", degrees(c.min_defect)},
                           {"max_defect_deg", degrees(c.max_defect)},
@@ -127,6 +139,7 @@ std::shared_ptr<Previews::RunningPull> Previews::running_pull(int number)
 Reply Previews::pull(const Session& session, const Request& request)
 {
     const auto began = Clock::now();
+    const double began_cpu = thread_milliseconds();
     const auto asked = read(session, request);
     if (!asked) {
         return error_reply(asked.error());
@@ -164,7 +177,8 @@ Reply Previews::pull(const Session& session, const Request& request)
                                  {"periods", frame.periods},
                                  {"settled", frame.settled},
                                  {"reason", frame.reason},
-                                 {"work_ms", milliseconds_since(began)}};
+                                 {"work_ms", milliseconds_since(began)},
+                                 {"cpu_ms", thread_milliseconds() - began_cpu}};
     return binary_reply(
         geometry_bytes(with_part(*snapshot.scene, start.on, *frame.surface), snapshot.design.element, header));
 }
@@ -187,10 +201,10 @@ Reply Previews::merge(const Session& session, const Request& request)
     }
     const MergeAnswer answer = merge_.answer(*question, candidate);
     if (answer.surface == nullptr) {
-        return json_reply({{"error", answer.reason}, {"candidates", candidates_json(answer.candidates)}}, 422);
+        return json_reply({{"error", answer.reason}, {"candidates", candidates_json(answer)}}, 422);
     }
     const ordered_json header = {
-        {"revision", revision}, {"candidates", candidates_json(answer.candidates)}, {"complete", answer.complete}};
+        {"revision", revision}, {"candidates", candidates_json(answer)}, {"complete", answer.complete}};
     return binary_reply(geometry_bytes(with_part(*question->scene, question->on, *answer.surface, question->with),
                                        question->element, header));
 }
@@ -241,6 +255,9 @@ Reply Previews::try_operation(const Session& session, const Request& request)
     const Snapshot& snapshot = *asked->snapshot;
     if (revision != snapshot.revision) {
         return stale(snapshot);
+    }
+    if (auto fits = check_size(*operation, snapshot.design.element); !fits) {
+        return error_reply(fits.error());
     }
     Scene scene = alone ? Scene{} : *snapshot.scene;
     if (auto done = carry_out(*operation, snapshot.design, {}, scene); !done) {

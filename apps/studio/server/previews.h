@@ -14,7 +14,8 @@ class Previews
 {
 public:
     //! POST /api/pull: {"pull": number of the drag, "revision", "on", "vertex", "brush", "symmetric", "by_mm"}.
-    //! Geometry of the whole scene; its header has "periods", "settled", "reason" and the "work_ms" it took.
+    //! Geometry of the whole scene; its header has "periods", "settled", "reason" and what it took: "work_ms" on the
+    //! clock, "cpu_ms" of computing.
     Reply pull(const Session& session, const Request& request);
 
     //! POST /api/merge: {"revision", "on", "with", a motion of the second part, "candidate"}. Geometry of the scene

@@ -3,6 +3,7 @@
 #include "apps/studio/server/answers.h"
 #include "apps/studio/server/changes.h"
 #include "apps/studio/server/geometry.h"
+#include "apps/studio/server/mesh_upload.h"
 #include "core/design/design_file.h"
 
 namespace rhombloom::studio {
@@ -81,6 +82,7 @@ Reply Studio::answer(const Request& request)
         {"/api/hint", [&] { return previews_.hint(*session_, request); }},
         {"/api/try", [&] { return previews_.try_operation(*session_, request); }},
         {"/api/layouts", [&] { return keep_layouts(request); }},
+        {"/api/import", [&] { return import_upload(*session_, request); }},
         {"/api/fabricate", [&] { return kit_.start(*session_, request); }}};
     const bool post = request.method == "POST";
     if (post && changes_document(request.path)) {

@@ -12,7 +12,9 @@ bool makes(const Operation& operation, const std::string& id)
 {
     const auto* place = std::get_if<Place>(&operation);
     const auto* layout = std::get_if<Layout>(&operation);
-    return (place != nullptr && place->id == id) || (layout != nullptr && layout->id == id);
+    const auto* import = std::get_if<Import>(&operation);
+    return (place != nullptr && place->id == id) || (layout != nullptr && layout->id == id) ||
+           (import != nullptr && import->id == id);
 }
 
 Expected<void> check_part(const Design& design, const std::string& id)
@@ -30,6 +32,13 @@ Expected<void> check_part(const Design& design, const std::string& id)
     return {};
 }
 
+//! Micrometres and microdegrees: what a person sets by hand stays readable in the file.
+double tidy(double x)
+{
+    constexpr double millionth = 1e6;
+    return std::round(x * millionth) / millionth + 0.0;
+}
+
 struct Mover
 {
     const Eigen::Isometry3d& motion;
@@ -42,12 +51,20 @@ struct Mover
             reference.point = motion.linear() * reference.point;
         }
     }
-    void operator()(Place& op) const
+    template <class Posed>
+    void move_pose(Posed& op) const
     {
-        op.position = motion * op.position;
+        op.position = (motion * op.position).unaryExpr(&tidy);
         op.rotation_deg = euler_deg(motion.linear() * rotation_matrix(op.rotation_deg));
     }
-    void operator()(Layout& op) const { op.position = motion * op.position; }
+    void operator()(Place& op) const { move_pose(op); }
+    void operator()(Layout& op) const { move_pose(op); }
+    void operator()(Import& op) const
+    {
+        for (Vec3& p : op.positions) {
+            p = motion * p;
+        }
+    }
     void operator()(Merge&) const {}
     void operator()(Extrude& op) const
     {
@@ -61,10 +78,6 @@ struct Mover
         }
     }
     void operator()(Flip& op) const { move(op.element); }
-    template <class Other>
-    void operator()(Other&) const
-    {
-    }
 };
 
 struct Subject
@@ -79,13 +92,6 @@ struct Subject
         }
     }
 };
-
-//! Micrometres and microdegrees: what a person sets by hand stays readable in the file.
-double tidy(double x)
-{
-    constexpr double millionth = 1e6;
-    return std::round(x * millionth) / millionth + 0.0;
-}
 
 } // namespace
 
@@ -122,9 +128,6 @@ Expected<Design> moved_part(const Design& design, const std::string& id, const E
     for (Operation& operation : result.operations) {
         if (subject(operation) == id) {
             std::visit(Mover{motion}, operation);
-        }
-        if (auto* place = std::get_if<Place>(&operation); place != nullptr && place->id == id) {
-            place->position = place->position.unaryExpr(&tidy);
         }
     }
     return result;

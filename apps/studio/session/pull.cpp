@@ -131,6 +131,7 @@ void Pull::settle(Level& level, const Surface& before, double budget_s)
 {
     EmbedOptions options;
     options.time_budget_s = budget_s;
+    options.threads = 1; // a drag leaves the other cores to the page that draws it
     Surface& surface = level.made->surface;
     const EmbedReport report = embed_in_place(surface, before, level.made->number, element_, options);
     level.settled = report.converged;
@@ -151,8 +152,10 @@ void Pull::fit_levels(const Vec3& by)
     }
 }
 
-PullFrame Pull::drag(const Vec3& by, double budget_s)
+PullFrame Pull::drag(const Vec3& wanted, double budget_s)
 {
+    constexpr double most_sides = 100; // as limits.h has it for the operation
+    const Vec3 by = wanted * std::min(1.0, most_sides * element_.la / std::max(1e-9, wanted.norm()));
     fit_levels(by);
     const double left = levels_.empty() ? by.norm() : (start() + by - levels_.back().tip).norm();
     const bool ready = levels_.empty() || levels_.back().settled;

@@ -33,8 +33,8 @@ class Pull
 public:
     static Expected<Pull> begin(ScenePointer scene, const Design& design, const PullStart& start);
 
-    //! Follow the drag to \p by (mm from the apex), spending about \p budget_s on the shape.
-    PullFrame drag(const Vec3& by, double budget_s);
+    //! Follow the drag to \p wanted (mm from the apex), spending about \p budget_s on the shape.
+    PullFrame drag(const Vec3& wanted, double budget_s);
 
 private:
     //! One period: the surface before it is the one of the level below.

@@ -22,12 +22,13 @@ function takeToken(): string {
 const token = takeToken();
 
 async function ask(path: string, body?: unknown): Promise<Response> {
+  const raw = body instanceof ArrayBuffer;
   const headers: Record<string, string> = { 'X-Rhombloom-Token': token };
   let response: Response;
   try {
     response = await fetch(path, body === undefined
       ? { headers }
-      : { method: 'POST', headers: { ...headers, 'Content-Type': 'application/json' }, body: JSON.stringify(body) });
+      : { method: 'POST', headers: { ...headers, 'Content-Type': raw ? 'application/octet-stream' : 'application/json' }, body: raw ? body : JSON.stringify(body) });
   } catch {
     throw new Refusal(0, 'unreachable', {});
   }

@@ -91,12 +91,32 @@ export class Bender {
     }
   }
 
-  // Points of all elements, one after the other.
+  // Has element f moved by more than can be seen since it was bent last?
+  private moved(at: number, facing: number): boolean {
+    const C = this.control, B = this.before;
+    let same = B[at + 3 * controls] === facing;
+    for (let k = 0; same && k < 3 * controls; ++k) same = Math.abs(B[at + k] - C[k]) < 0.02;
+    if (!same) {
+      B.set(C, at);
+      B[at + 3 * controls] = facing;
+    }
+    return !same;
+  }
+
+  private before = new Float32Array(0); // control points of every element as they were bent last
+  private target: Float32Array | null = null;
+
+  // Points of all elements, one after the other; elements that have not moved are left as they are.
   bend(g: Geometry, out: Bent): void {
-    const N = vertexNormals(g), C = this.control, n = this.points;
+    const N = vertexNormals(g), C = this.control, n = this.points, size = 3 * controls + 1;
     const { mix, alongU, alongV, lift } = this;
+    if (this.target !== out.positions) {
+      this.target = out.positions;
+      this.before = new Float32Array(size * (out.positions.length / (3 * n))).fill(NaN);
+    }
     for (let f = 0; f < g.header.elements; ++f) {
       this.setControls(g, N, f);
+      if (!this.moved(f * size, g.facing[f])) continue;
       const side = g.facing[f] ? -1 : 1;
       for (let i = 0, to = 3 * n * f; i < n; ++i, to += 3) {
         let x = 0, y = 0, z = 0, ux = 0, uy = 0, uz = 0, vx = 0, vy = 0, vz = 0;

@@ -9,12 +9,14 @@ export interface Header {
   settled?: boolean;
   reason?: string;
   work_ms?: number;
+  cpu_ms?: number;
   candidates?: Candidate[];
   complete?: boolean;
 }
 
 export interface Candidate {
   removed: number;
+  max_stretch: number;
   seam: number;
   min_defect_deg: number;
   max_defect_deg: number;

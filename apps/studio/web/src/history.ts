@@ -15,8 +15,23 @@ const fields: Record<string, Field[]> = {
   merge: [{ key: 'candidate', label: 'Candidate', kind: 'number' }],
   open: [{ key: 'purpose', label: 'Purpose', kind: 'text' }, { key: 'symmetric', label: 'Symmetric', kind: 'flag' }],
   flip: [{ key: 'symmetric', label: 'Symmetric', kind: 'flag' }],
-  layout: [{ key: 'position_mm', label: 'Position (mm)', kind: 'point' }],
+  layout: [{ key: 'position_mm', label: 'Position (mm)', kind: 'point' }, { key: 'rotation_deg', label: 'Rotation (degrees)', kind: 'point' }],
 };
+
+// An operation in two lines: what was done, and where.
+export function describe(op: Operation): [string, string] {
+  const round = (p: unknown) => Array.isArray(p) ? `(${(p as number[]).map(x => Math.round(x)).join(', ')}) mm` : '';
+  const mirrored = op.symmetric ? `, ${t('Symmetric')}` : '', count = Array.isArray(op.elements) ? op.elements.length : 0;
+  switch (op.op) {
+    case 'place': return [`${t('Place')} ${String(op.shape)}`, String(op.id)];
+    case 'merge': return [`${t('Join')} ${String(op.with)}`, `${t('to')} ${String(op.on)}`];
+    case 'extrude': return [`${t('Pull')} ${String(op.brush)}`, `${t('by')} ${round(op.by_mm)}${mirrored}`];
+    case 'open': return [`${t('Open')}: ${t(String(op.purpose ?? ''))}`, `${count} ${t(count === 1 ? 'element' : 'elements')}${mirrored}`];
+    case 'flip': return [t('Flip'), `${t('element')}${mirrored}`];
+    case 'layout': return [t('Layout'), `${count} ${t('elements')}`];
+    default: return [op.op, String(op.id ?? '')];
+  }
+}
 
 function input(field: Field, value: unknown, set: (value: unknown) => void, shapes: string[]): HTMLElement {
   if (field.kind === 'point') {
@@ -55,11 +70,11 @@ function form(store: Store, index: number, shapes: string[]): HTMLElement {
 }
 
 export function historyPanel(store: Store, shapes: string[]): HTMLElement {
-  const { operations, texts } = store.state;
+  const { operations } = store.state, texts = operations.map(op => describe(op).join(' '));
   if (open >= operations.length) open = -1;
-  const rows = operations.flatMap((_, k) => {
+  const rows = operations.flatMap((op, k) => {
     const row = h('li', { class: k === open ? 'on' : '', 'data-step': k },
-      h('span', { class: 'number' }, String(k + 1)), h('span', { class: 'what', title: texts[k] }, texts[k]),
+      h('span', { class: 'number' }, String(k + 1)), h('span', { class: 'what', title: texts[k] }, describe(op)[0], h('small', {}, describe(op)[1])),
       button(`${t('Change this step')}: ${texts[k]}`, 'edit', () => {
         (document.activeElement as HTMLElement | null)?.blur();
         open = open === k ? -1 : k;

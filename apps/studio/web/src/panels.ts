@@ -1,6 +1,6 @@
 // The panels round the view: top bar, library, parts, history, status.
 import * as api from './api';
-import { button, fill, h, icon } from './dom';
+import { button, fill, h, icon, menu } from './dom';
 import { bounds } from './geometry';
 import { historyPanel } from './history';
 import { overlayLimits, type Overlay } from './colours';
@@ -27,12 +27,14 @@ const symmetries: [string, Symmetry | null][] = [
   ['No symmetry', null], ['Mirror left and right', { mirror: [1, 0, 0] }], ['Mirror front and back', { mirror: [0, 1, 0] }],
   ['Axis', { axis: [0, 0, 1], fold: 3 }]];
 
+const buildableStretch = 0.01; // more cannot be fabricated
+const folds = [2, 3, 4, 5, 6, 8];
+
 export class Panels {
   private shapes: Shape[] = [];
   private pictures = new Map<string, string>();
   private figures: Figures | null = null;
   private figuresFor = '';
-  private folds = [2, 3, 4, 5, 6, 8];
 
   constructor(private readonly store: Store, private readonly view: View, private readonly tools: Tools,
     private readonly layouts: Layouts, private readonly actions: { make(): void; help(): void }) {
@@ -94,10 +96,10 @@ export class Panels {
       h('span', { class: 'gap' }),
       labelled(tool('select', 'Select', 'V'), 'Select'), labelled(tool('pull', 'Pull', 'E'), 'Pull'),
       labelled(tool('open', 'Open', 'O'), 'Open'), labelled(tool('flip', 'Flip', 'F'), 'Flip'),
-      h('span', { class: 'gap' }), this.symmetrySelect(),
+      h('span', { class: 'gap' }), this.symmetryMenu(),
       button(`${t('Symmetric')} (S)`, 'mirror', () => this.toggleSymmetric(),
         { 'aria-pressed': String(tools.symmetric && store.state.symmetry !== null), disabled: store.state.symmetry === null, 'data-do': 'symmetric' }),
-      h('span', { class: 'grow' }), this.overlaySelect(),
+      h('span', { class: 'grow' }), this.overlayMenu(),
       button(t('Fit') + ' (Home)', 'fit', () => view.fit()),
       button(t('Dark or light'), 'sun', () => this.toggleTheme()),
       button(`${t('Language')}: ${language === 'de' ? 'English' : 'Deutsch'}`, null, () => this.toggleLanguage(), { class: 'small', 'data-do': 'language' }, false),
@@ -107,29 +109,32 @@ export class Panels {
     if (focus) $('bar').querySelector<HTMLElement>(`[aria-label="${CSS.escape(focus)}"]`)?.focus();
   }
 
-  private symmetrySelect(): HTMLElement {
+  private symmetryMenu(): HTMLElement {
     const { symmetry } = this.store.state;
-    const kind = !symmetry ? 0 : symmetry.axis ? 3 : Math.abs(symmetry.mirror![0]) > Math.abs(symmetry.mirror![1]) ? 1 : 2;
-    const options = symmetries.flatMap(([label], k) => k < 3 ? [h('option', { value: String(k), selected: kind === k }, t(label))]
-      : this.folds.map(n => h('option', { value: `3:${n}`, selected: kind === 3 && symmetry!.fold === n }, `${t(label)} ${n}×`)));
-    return h('select', { 'aria-label': t('Symmetric'), 'data-do': 'symmetry', onchange: ((e: Event) => {
-      const [k, n] = (e.target as HTMLSelectElement).value.split(':').map(Number);
-      const wanted = symmetries[k][1] && { ...symmetries[k][1], ...(n && { fold: n }), through_mm: [0, 0, 0] };
-      void this.store.change('/api/document', { symmetry: wanted }).then(ok => {
+    const same = (a: Symmetry | null) => JSON.stringify([a?.mirror, a?.axis && a.fold]) === JSON.stringify([symmetry?.mirror, symmetry?.axis && symmetry.fold]);
+    const choices = [...symmetries.slice(0, 3), ...folds.map(fold => [`Axis`, { ...symmetries[3][1], fold }] as [string, Symmetry])];
+    const entries = choices.map(([label, wanted]) => ({
+      label: t(label) + (wanted?.fold ? ` ${wanted.fold}×` : ''), on: same(wanted),
+      act: () => void this.store.change('/api/document', { symmetry: wanted && { ...wanted, through_mm: [0, 0, 0] } }).then(ok => {
         if (ok) this.tools.symmetric = wanted !== null;
         this.showPlane();
         this.update();
-      });
-    }) as EventListener }, ...options);
+      }),
+    }));
+    return menu(t('Symmetry'), entries.find(e => e.on)?.label ?? t('Symmetry'), 'symmetry', entries);
   }
 
-  private overlaySelect(): HTMLElement {
+  private overlayMenu(): HTMLElement {
     const choices: [Overlay, string][] = [['none', 'Sides'], ['part', 'Components'], ['defect', 'Defect'], ['strain', 'Strain']];
-    return h('select', { 'aria-label': t('Colours'), 'data-do': 'overlay', onchange: ((e: Event) => {
-      this.view.overlay = (e.target as HTMLSelectElement).value as Overlay;
-      this.view.repaint();
-      this.legend();
-    }) as EventListener }, ...choices.map(([value, label]) => h('option', { value, selected: this.view.overlay === value }, t(label))));
+    const entries = choices.map(([value, label]) => ({
+      label: t(label), on: this.view.overlay === value,
+      act: () => {
+        this.view.overlay = value;
+        this.view.repaint();
+        this.update();
+      },
+    }));
+    return menu(t('Colours'), entries.find(e => e.on)!.label, 'overlay', entries);
   }
 
   toggleSymmetric(): void {
@@ -166,9 +171,27 @@ export class Panels {
     const shapes = this.shapes.map(s => card(s.name, s.name, `${s.elements} ${t('elements')}`, s.summary,
       () => { this.tools.brush = s.name; this.update(); }, e => this.carry(e, s.name)));
     const own = this.layouts.saved.map((l, k) => card('layout:' + k, l.name, `${l.elements.length} ${t('elements')}`, l.name, () => this.layouts.open(k), e => this.carry(e, l.name, l)));
-    fill($('library'), h('h2', {}, t('Library')), h('div', { class: 'shapes', role: 'group', 'aria-label': t('Library') }, ...shapes),
+    const other = h('input', { class: 'other', placeholder: t('Other shape') + ': polar-3x8', 'aria-label': t('Other shape'), spellcheck: 'false',
+      onchange: (() => void this.addShape(other.value.trim())) as EventListener });
+    fill($('library'), h('h2', {}, t('Library')), h('div', { class: 'shapes', role: 'group', 'aria-label': t('Library') }, ...shapes), other,
       h('h2', {}, t('My layouts'), button(t('New layout'), 'draw', () => this.layouts.open(-1), { class: 'small', 'data-do': 'layout' })),
       h('div', { class: 'shapes' }, ...own));
+  }
+
+  // Families take any number they can build: a shape by its name.
+  private async addShape(name: string): Promise<void> {
+    if (!name || this.shapes.some(s => s.name === name)) return;
+    try {
+      const g = await api.geometry('/api/try', { revision: this.store.state.revision, alone: true, operation: { op: 'place', shape: name } });
+      this.shapes = [{ name, summary: name, elements: g.header.elements, open: false }, ...this.shapes];
+      this.tools.brush = name;
+      this.library();
+      $('library').scrollTop = 0;
+      this.update();
+      await this.thumbnail(name);
+    } catch (problem) {
+      this.store.explain(problem);
+    }
   }
 
   // Carry a shape from the library into the scene.
@@ -206,7 +229,7 @@ export class Panels {
     const { state } = this.store;
     const rows = state.parts.map((part, k) => h('li', { class: k === this.tools.part ? 'on' : '' },
       h('span', { class: 'what', onclick: () => this.choosePart(k), role: 'button', tabindex: 0, onkeydown: ((e: KeyboardEvent) => { if (e.key === 'Enter') this.choosePart(k); }) as EventListener },
-        part.id, h('small', { class: part.problems.length || !part.settled ? 'bad' : '' },
+        part.id, h('small', { class: part.problems.length || !part.settled || part.max_stretch > buildableStretch ? 'bad' : '' },
           part.problems[0] ?? `${part.elements} ${t('elements')}, ${part.flipped} ${t('flipped')}, ${number(part.max_stretch * 100, 2)} %`)),
       state.parts.length > 1 && button(t('Delete'), 'remove', () => { this.tools.part = k; void this.tools.deletePart(); }, { class: 'small' })));
     fill($('side'), h('h2', {}, t('Parts'), this.fileButtons()), h('ul', { class: 'rows' }, ...rows), this.picked(),
@@ -228,9 +251,30 @@ export class Panels {
       h('a', { href: address, download: this.store.state.file }).click();
       setTimeout(() => URL.revokeObjectURL(address), 5000);
     };
-    return h('span', {}, pick,
+    const mesh = h('input', { type: 'file', accept: '.obj,.ply,.stl,.off,.glb', hidden: true, onchange: (() => {
+      const file = mesh.files?.[0];
+      if (file) this.importMesh(file);
+    }) as EventListener });
+    return h('span', {}, pick, mesh, button(t('Import a mesh'), 'mesh', () => mesh.click(), { class: 'small' }),
       button(t('New'), 'plus', () => void this.store.change('/api/replace', { design: { rhombloom: 1, operations: [] } }), { class: 'small' }),
       button(t('Open file'), 'file', () => pick.click(), { class: 'small' }), button(t('Save a copy'), 'save', () => void save(), { class: 'small' }));
+  }
+
+  // Ask how many elements, then let the server find a network of them near the mesh.
+  private importMesh(file: File): void {
+    const count = h('input', { type: 'number', min: 6, max: 3000, value: 300, 'aria-label': t('How many elements') });
+    const dialog = h('dialog', { class: 'small', 'aria-label': t('Import a mesh') });
+    const go = async () => {
+      dialog.close();
+      const query = new URLSearchParams({ revision: String(this.store.state.revision), elements: count.value, name: file.name });
+      if (await this.store.change(`/api/import?${query}`, await file.arrayBuffer())) this.view.fit();
+    };
+    dialog.append(h('div', {}, h('div', { class: 'head' }, h('strong', {}, `${t('Import a mesh')}: ${file.name}`)),
+      h('div', { class: 'body' }, h('label', {}, t('How many elements') + ' ', count), ' ',
+        h('button', { type: 'button', class: 'main', onclick: () => void go() }, t('Apply')), h('button', { type: 'button', class: 'quiet', onclick: () => dialog.close() }, t('Cancel')))));
+    dialog.addEventListener('close', () => dialog.remove());
+    document.getElementById('dialog')!.append(dialog);
+    dialog.showModal();
   }
 
   private choosePart(k: number): void {
@@ -300,7 +344,7 @@ export class Panels {
     } else if (merging.showing && !merging.reason) {
       const c = merging.candidates[merging.index];
       show(button(t('Next and previous way to join') + ' ←', 'left', () => void merging.next(-1), { 'data-do': 'previous' }),
-        h('span', {}, `${merging.index + 1} ${t('of')} ${merging.candidates.length}${merging.complete ? '' : '+'}`, c ? h('small', {}, `  −${c.removed} ${t('elements')}, ${number(c.min_defect_deg)}° … ${number(c.max_defect_deg)}°`) : null),
+        h('span', {}, `${merging.index + 1} ${t('of')} ${merging.candidates.length}${merging.complete ? '' : '+'}`, c ? h('small', { class: c.max_stretch > buildableStretch ? 'bad' : '' }, `  −${c.removed} ${t('elements')}, ${t('strain')} ${number(c.max_stretch * 100, 2)} %`) : null),
         button(t('Next and previous way to join') + ' →', 'right', () => void merging.next(1), { 'data-do': 'next' }),
         h('button', { class: 'main', type: 'button', 'data-do': 'join', disabled: this.store.busy > 0, onclick: () => void merging.join() }, t('Join')),
         h('button', { class: 'quiet', type: 'button', 'data-do': 'apart', onclick: () => { merging.stop(); this.tools.refresh(); } }, t('Keep apart')));

@@ -14,6 +14,7 @@ export class Pulling {
   reason = '';
   listeners: (() => void)[] = [];
   readonly work: number[] = []; // ms on the server, per frame
+  readonly cpu: number[] = []; // of that, ms of computing
   readonly latency: number[] = []; // ms from request to picture
   private start!: PullStart;
   private apex = new THREE.Vector3();
@@ -61,6 +62,7 @@ export class Pulling {
         this.reason = g.header.reason ?? '';
         this.view.show(g);
         this.work.push(g.header.work_ms ?? 0);
+        this.cpu.push(g.header.cpu_ms ?? 0);
         this.latency.push(performance.now() - began);
         for (const listener of this.listeners) listener();
       }

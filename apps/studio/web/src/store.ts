@@ -85,11 +85,11 @@ export class Store {
   }
 
   // Change the document; false when it was refused, with the reason said.
-  async change(path: string, body: Record<string, unknown> = {}): Promise<boolean> {
+  async change(path: string, body: Record<string, unknown> | ArrayBuffer = {}): Promise<boolean> {
     ++this.busy;
     this.tell();
     try {
-      this.state = await api.post<State>(path, { revision: this.state.revision, ...body });
+      this.state = await api.post<State>(path, body instanceof ArrayBuffer ? body : { revision: this.state.revision, ...body });
       this.geometry = await api.geometry('/api/geometry');
       if (this.geometry.header.revision !== this.state.revision) await this.load();
       return true;

@@ -5,13 +5,34 @@ import { partOfVertex, vertexRange, type Geometry } from './geometry';
 import { Handles } from './handles';
 import { Merging } from './merging';
 import { Pulling } from './pulling';
-import type { Store } from './store';
+import type { Store, Symmetry } from './store';
 import { t } from './words';
 import type { Pick, View } from './view';
 
 export type Tool = 'select' | 'pull' | 'open' | 'flip';
 
 const clickReach = 5; // pixels that a click may move
+
+function mirrorPlane(symmetry: Symmetry): THREE.Plane {
+  return new THREE.Plane().setFromNormalAndCoplanarPoint(new THREE.Vector3(...symmetry.mirror!).normalize(), new THREE.Vector3(...(symmetry.through_mm ?? [0, 0, 0])));
+}
+
+// Move a point near the mirror onto it.
+function snapToMirror(p: THREE.Vector3, symmetry: Symmetry | null, reach: number): boolean {
+  if (!symmetry?.mirror) return false;
+  const plane = mirrorPlane(symmetry), distance = plane.distanceToPoint(p);
+  if (Math.abs(distance) > reach) return false;
+  p.addScaledVector(plane.normal, -distance);
+  return true;
+}
+
+function isOwnImage(g: Geometry, symmetry: Symmetry, reach: number): boolean {
+  const plane = mirrorPlane(symmetry), points = Array.from({ length: g.header.vertices }, (_, v) => new THREE.Vector3().fromArray(g.positions, 3 * v));
+  return points.every(p => {
+    const image = p.clone().addScaledVector(plane.normal, -2 * plane.distanceToPoint(p));
+    return points.some(q => q.distanceTo(image) < reach);
+  });
+}
 
 export class Tools {
   tool: Tool = 'select';
@@ -75,7 +96,7 @@ export class Tools {
     }
     if (this.element >= 0 && this.tool === 'select') view.chosen.add(this.element);
     view.repaint();
-    const movable = this.tool === 'select' && this.part >= 0 && store.state.parts[this.part]?.movable && store.state.parts.length > 1;
+    const movable = this.tool === 'select' && this.part >= 0 && !this.merging.showing && store.state.parts[this.part]?.movable && store.state.parts.length > 1;
     this.handles.attach(movable ? this.partMiddle(this.part) : null);
   }
 
@@ -152,7 +173,14 @@ export class Tools {
     }
   }
 
+  // A part of a mirrored design that is let go near the plane comes to lie on it.
   private async release(motion: THREE.Matrix4): Promise<void> {
+    if (this.store.state.symmetry?.mirror && this.symmetric) {
+      const here = this.partMiddle(this.part).applyMatrix4(motion), onPlane = here.clone();
+      if (snapToMirror(onPlane, this.store.state.symmetry, 0.25 * this.store.state.element.la_mm)) {
+        motion.premultiply(new THREE.Matrix4().makeTranslation(onPlane.sub(here)));
+      }
+    }
     await this.merging.release(this.part, motion);
     this.refresh();
   }
@@ -208,14 +236,19 @@ export class Tools {
     await this.store.change('/api/delete', { part: part.id });
   }
 
-  // Put a shape where the pointer is: onto the plane through the middle of the scene.
+  // Put a shape where the pointer is: onto the mirror, or onto the plane through the middle of the scene.
   async place(shape: string, x: number, y: number, layout?: { elements: unknown[]; joins: unknown[] }): Promise<void> {
-    const first = this.store.state.parts.length === 0;
-    const at = first ? new THREE.Vector3() : this.view.onPlane(x, y, this.view.centre());
+    const { symmetry, element, parts } = this.store.state, first = parts.length === 0;
+    const at = first ? new THREE.Vector3() : (this.symmetric && this.onMirror(x, y)) || this.view.onPlane(x, y, this.view.centre());
+    const snapped = snapToMirror(at, symmetry, 0.5 * element.la_mm);
     const position = [at.x, at.y, at.z].map(c => Math.round(c * 10) / 10);
     const id = this.store.freshId(first ? 'body' : shape.replace(/-.*/, ''));
-    const operation = layout ? { op: 'layout', id, position_mm: position, ...layout } : { op: 'place', id, shape, position_mm: position };
-    if (!await this.store.apply(operation)) return;
+    ++this.store.busy;
+    const turn = snapped && !layout ? await this.symmetricTurn(shape, position) : 0;
+    --this.store.busy;
+    const done = await this.store.apply(layout ? { op: 'layout', id, position_mm: position, ...layout }
+      : { op: 'place', id, shape, position_mm: position, rotation_deg: [0, 0, turn] });
+    if (!done) return;
     this.part = this.store.state.parts.findIndex(p => p.id === id);
     this.element = this.vertex = -1;
     this.tool = 'select';
@@ -226,11 +259,25 @@ export class Tools {
     this.refresh();
   }
 
-  async shapeGhost(shape: string): Promise<Geometry | null> {
-    try {
-      return await api.geometry('/api/try', { revision: this.store.state.revision, operation: { op: 'place', id: '*', shape } });
-    } catch {
-      return null;
+  // Where the pointer is on the mirror, unless that is seen edge-on.
+  private onMirror(x: number, y: number): THREE.Vector3 | null {
+    const { symmetry } = this.store.state;
+    if (!symmetry?.mirror) return null;
+    const plane = mirrorPlane(symmetry), ray = this.view.ray(x, y);
+    return Math.abs(ray.direction.dot(plane.normal)) < 0.12 ? null : ray.intersectPlane(plane, new THREE.Vector3());
+  }
+
+  // The turn about z (degrees) with which the shape is its own mirror image; 0 when none is.
+  private async symmetricTurn(shape: string, position_mm: number[]): Promise<number> {
+    const { revision, symmetry, element } = this.store.state;
+    for (const turn of [0, 90, 180, 270, 30, 45, 60]) {
+      try {
+        const g = await api.geometry('/api/try', { revision, alone: true, operation: { op: 'place', shape, position_mm, rotation_deg: [0, 0, turn] } });
+        if (isOwnImage(g, symmetry!, 0.05 * element.la_mm)) return turn;
+      } catch {
+        return 0; // the placing itself will say why
+      }
     }
+    return 0;
   }
 }

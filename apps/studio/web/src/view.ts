@@ -11,17 +11,26 @@ interface Theme { top: string; bottom: string; line: string; grid: string; tints
 
 const themes: Record<'light' | 'dark', Theme> = {
   light: { top: '#e9ebee', bottom: '#c9ced5', line: '#6d655a', grid: '#9aa3ae',
-    tints: { front: [0.95, 0.92, 0.86], back: [0.91, 0.64, 0.42], chosen: [0.2, 0.5, 0.95], marked: [0.85, 0.2, 0.15] } },
+    tints: { front: [0.95, 0.92, 0.86], back: [0.93, 0.69, 0.48], chosen: [0.2, 0.5, 0.95], marked: [0.85, 0.2, 0.15] } },
   dark: { top: '#33363d', bottom: '#1a1c20', line: '#4a443c', grid: '#5b626c',
     tints: { front: [0.93, 0.9, 0.84], back: [0.89, 0.62, 0.4], chosen: [0.3, 0.6, 1], marked: [0.9, 0.3, 0.22] } },
 };
+
+function sameNumbers(a: Int32Array, b: Int32Array): boolean {
+  return a.length === b.length && a.every((x, k) => x === b[k]);
+}
+
+function keepRecent(times: number[], ms: number): void {
+  times.push(ms);
+  if (times.length > 4000) times.splice(0, 2000);
+}
 
 export class View {
   readonly scene = new THREE.Scene();
   readonly camera = new THREE.PerspectiveCamera(30, 1, 1, 1e5);
   readonly renderer: THREE.WebGLRenderer;
   readonly orbit: OrbitControls;
-  readonly timing = { frames: 0, cpu: [] as number[] };
+  readonly timing = { bend: [] as number[], draw: [] as number[] }; // ms of this page per frame
   overlay: Overlay = 'none';
   shown: Geometry | null = null;
   chosen = new Set<number>();
@@ -35,7 +44,7 @@ export class View {
   private dot = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), new THREE.MeshBasicMaterial({ color: 0x2f6fed, depthTest: false, transparent: true, opacity: 0.92 }));
   private arrow = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0x2f6fed, depthTest: false, transparent: true }));
   private grid = new THREE.GridHelper(4000, 40);
-  private plane = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), new THREE.MeshBasicMaterial({ color: 0x3b82f6, transparent: true, opacity: 0.09, side: THREE.DoubleSide, depthWrite: false }));
+  private plane = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), new THREE.MeshBasicMaterial({ color: 0x3b82f6, transparent: true, opacity: 0.06, side: THREE.DoubleSide, depthWrite: false }));
   private tints = themes.light.tints;
   private dirty = true;
   private touched = -1;
@@ -51,16 +60,15 @@ export class View {
     this.orbit.dampingFactor = 0.16;
     this.orbit.zoomToCursor = true;
     this.orbit.addEventListener('change', () => this.render());
-    this.scene.add(new THREE.HemisphereLight(0xf4f7ff, 0x8a7c6c, 1.7));
-    const key = new THREE.DirectionalLight(0xfff2df, 1.9), fill = new THREE.DirectionalLight(0xdfe9ff, 0.5);
-    key.position.set(0.4, -0.25, 0.85);
-    fill.position.set(-0.8, 0.1, 0.1);
+    this.scene.add(new THREE.HemisphereLight(0xf6f8ff, 0x9a8c7c, 2.0));
+    const key = new THREE.DirectionalLight(0xfff4e4, 2.1), fill = new THREE.DirectionalLight(0xe2ebff, 0.6);
     this.camera.add(key, key.target, fill, fill.target);
     key.position.set(0.5, 0.8, 0.6);
     fill.position.set(-0.9, -0.1, 0.3);
     this.grid.rotation.x = Math.PI / 2;
     this.dot.renderOrder = this.arrow.renderOrder = 10;
     this.dot.visible = this.arrow.visible = this.ghost.visible = this.plane.visible = false;
+    this.mesh.visible = this.rims.visible = false; // without normals the material would be compiled for flat facets
     this.mesh.frustumCulled = this.rims.frustumCulled = this.ghost.frustumCulled = this.arrow.frustumCulled = false;
     (this.mesh.material as THREE.Material).polygonOffset = true;
     (this.mesh.material as THREE.Material).polygonOffsetFactor = 1;
@@ -121,12 +129,20 @@ export class View {
     position.needsUpdate = normal.needsUpdate = true;
     this.mesh.geometry.setDrawRange(0, F * this.bender.indices.length);
     this.rims.geometry.setDrawRange(0, F * 2 * this.bender.rim);
-    this.repaint();
-    this.timing.cpu.push(performance.now() - began);
-    if (this.timing.cpu.length > 4000) this.timing.cpu.splice(0, 2000);
+    const painted = JSON.stringify([F, this.overlay]);
+    if (this.overlay === 'defect' || this.overlay === 'strain' || painted !== this.painted || !sameNumbers(geometry.facing, this.paintedFacing)) this.repaint();
+    this.render();
+    keepRecent(this.timing.bend, performance.now() - began);
   }
 
+  private painted = '';
+  private paintedFacing: Int32Array = new Int32Array(0);
+
   repaint(): void {
+    if (this.shown) {
+      this.painted = JSON.stringify([this.shown.header.elements, this.overlay]);
+      this.paintedFacing = this.shown.facing;
+    }
     if (this.bender && this.shown && this.capacity >= this.shown.header.elements && this.capacity > 0) {
       const colour = this.mesh.geometry.getAttribute('color') as THREE.BufferAttribute;
       paint(this.shown, this.bender, this.overlay, this.tints, this.chosen, this.marked, colour.array as Float32Array);
@@ -167,6 +183,7 @@ export class View {
     this.rims.geometry.dispose();
     this.mesh.geometry = geometry;
     this.rims.geometry = rims;
+    this.mesh.visible = this.rims.visible = true;
     geometry.setDrawRange(0, 0);
     rims.setDrawRange(0, 0);
   }
@@ -204,7 +221,7 @@ export class View {
       const centre = this.centre();
       const n = normal.clone().normalize();
       this.plane.position.copy(centre).addScaledVector(n, through.clone().sub(centre).dot(n));
-      this.plane.scale.setScalar(this.radius * 2.6);
+      this.plane.scale.setScalar(this.radius * 2.3);
     }
     this.render();
   }
@@ -253,6 +270,7 @@ export class View {
   }
 
   private draw(): void {
+    const began = performance.now();
     this.dirty = false;
     const distance = this.camera.position.distanceTo(this.orbit.target);
     this.camera.near = Math.max(1, distance / 100);
@@ -261,7 +279,7 @@ export class View {
     this.dot.scale.setScalar(this.camera.position.distanceTo(this.dot.position) * 0.0065 + 1);
     for (const f of this.onFrame) f();
     this.renderer.render(this.scene, this.camera);
-    ++this.timing.frames;
+    keepRecent(this.timing.draw, performance.now() - began);
   }
 
   // Screen positions, in pixels of the page.

@@ -1,7 +1,7 @@
 // Texts of the page: English is the key, German beside it.
 const german: Record<string, string> = {
   'Undo': 'Zurück', 'Redo': 'Wieder', 'Select': 'Wählen', 'Pull': 'Ziehen', 'Open': 'Öffnen', 'Flip': 'Wenden',
-  'Symmetric': 'Symmetrisch', 'No symmetry': 'Keine Symmetrie', 'Mirror left and right': 'Links und rechts spiegeln',
+  'Symmetric': 'Symmetrisch', 'Symmetry': 'Symmetrie', 'No symmetry': 'Keine Symmetrie', 'Mirror left and right': 'Links und rechts spiegeln',
   'Mirror front and back': 'Vorn und hinten spiegeln', 'Axis': 'Achse', 'Fit': 'Alles zeigen', 'Help': 'Hilfe',
   'Fabricate': 'Fertigen', 'Library': 'Formen', 'History': 'Verlauf', 'Parts': 'Teile', 'Language': 'Sprache',
   'Dark or light': 'Dunkel oder hell', 'Colours': 'Farben', 'Sides': 'Seiten', 'Defect': 'Defekt', 'Strain': 'Dehnung',
@@ -29,10 +29,11 @@ const german: Record<string, string> = {
   'Position (mm)': 'Ort (mm)', 'Rotation (degrees)': 'Drehung (Grad)', 'Pull by (mm)': 'Ziehen um (mm)', 'Candidate': 'Auswahl',
   'Remove this step': 'Diesen Schritt entfernen', 'Change this step': 'Diesen Schritt ändern', 'element': 'Element', 'vertex': 'Ecke',
   'front': 'vorn', 'flipped': 'gewendet', 'valence': 'Valenz', 'defect': 'Defekt', 'strain': 'Dehnung', 'opening': 'Öffnung',
-  'too much in front': '', 'compressed': 'gestaucht', 'stretched': 'gedehnt', 'saddle': 'Sattel', 'peak': 'Spitze', 'flat': 'flach',
+  'compressed': 'gestaucht', 'stretched': 'gedehnt', 'saddle': 'Sattel', 'peak': 'Spitze', 'flat': 'flach',
   'Add element': 'Element dazu', 'Place in the scene': 'In die Szene setzen', 'Drag elements; drag from side to side to connect; R turns, F flips, Delete removes.':
     'Elemente ziehen; von Seite zu Seite ziehen verbindet; R dreht, F wendet, Entf löscht.',
-  'Keyboard': 'Tastatur', 'Everything fits the screen': 'Alles ins Bild', 'Front, side, top': 'Vorn, Seite, oben', 'Next and previous way to join': 'Nächste und vorige Verbindung',
+  'Other shape': 'Andere Form', 'Place': 'Setze', 'to': 'an', 'by': 'um', 'Mesh': 'Netz', 'Import a mesh': 'Netz einlesen', 'How many elements': 'Wie viele Elemente',
+  'Choose elements of one part.': 'Bitte Elemente eines Teils wählen.', 'Keyboard': 'Tastatur', 'Everything fits the screen': 'Alles ins Bild', 'Front, side, top': 'Vorn, Seite, oben', 'Next and previous way to join': 'Nächste und vorige Verbindung',
   'Turn the view': 'Ansicht drehen', 'drag, two fingers, arrow keys': 'ziehen, Pfeiltasten', 'Shift the view': 'Ansicht schieben', 'right drag, two fingers': 'rechts ziehen, zwei Finger',
   'Zoom': 'Vergrößern', 'wheel, pinch, + and -': 'Rad, zwei Finger, + und -', 'Leave': 'Verlassen', 'Save to the library': 'In die Sammlung', 'My layouts': 'Meine Zeichnungen',
   'Along the normal': 'Entlang der Normalen', 'hold Shift while pulling': 'Umschalt beim Ziehen halten', 'Delete the chosen part': 'Gewähltes Teil löschen',

@@ -1,0 +1,157 @@
+// usage: studio_bunny.mjs ADDRESS SCREENSHOTS FOLDER: a bunny by mouse alone.
+import fs from 'node:fs';
+import { expect, finish } from './chromium.mjs';
+import { card, click, drag, grasp, idle, open_studio, place, pull, ready, state, where } from './studio_page.mjs';
+
+const [address, shots, folder] = process.argv.slice(2);
+let { browser, page } = await open_studio(address);
+let shotsTaken = 0;
+const shot = name => page.screenshot({ path: `${shots}/studio-${String(++shotsTaken).padStart(2, '0')}-${name}.png` });
+const middle = { x: 676, y: 480 };
+
+expect((await state(page)).parts.length === 0, 'starts empty');
+await shot('empty');
+// Mirrored from the start: what is placed comes to lie on the plane, turned so that it is its own image.
+await click(page, '[data-menu=symmetry]');
+await page.locator('.menu button', { hasText: /Mirror left/ }).click();
+await page.waitForTimeout(100);
+await idle(page);
+expect((await state(page)).symmetry?.mirror?.[0] === 1, 'mirrored left and right');
+await place(page, 'ball-90', middle);
+expect((await state(page)).parts.length === 1, 'the body is placed');
+await page.mouse.move(middle.x, middle.y);
+for (let k = 0; k < 3; ++k) await page.mouse.wheel(0, 240);
+await page.waitForTimeout(200);
+
+// The head: dropped half inside the body, joined.
+await place(page, 'ball-30', await where(page, [0, 0, 240]));
+expect((await state(page)).parts.length === 2, 'the head is placed');
+await shot('head');
+if (await page.isVisible('[data-do=suggest]')) {
+  await click(page, '[data-do=suggest]');
+  await page.waitForSelector('[data-do=follow]', { timeout: 30000 });
+  await click(page, '[data-do=follow]');
+  await page.waitForTimeout(200);
+  await idle(page);
+}
+expect(await page.isVisible('[data-do=join]'), 'ways to join are offered: ' + await page.textContent('#choice'));
+await click(page, '[data-do=next]');
+await page.waitForTimeout(100);
+await idle(page);
+await click(page, '[data-do=previous]');
+await page.waitForTimeout(100);
+await idle(page);
+await shot('join');
+await click(page, '[data-do=join]');
+await page.waitForTimeout(100);
+await idle(page);
+expect((await state(page)).parts.length === 1, 'joined');
+
+// Ears: one pull, both grow.
+await click(page, '[data-tool=pull]');
+const brush = await card(page, 'polar-5x6');
+await page.mouse.click(brush.x, brush.y);
+expect(await page.evaluate(() => window.studio.tools.brush) === 'polar-5x6', 'a brush is chosen');
+let count = (await page.evaluate(() => window.studio.store.geometry.header.elements));
+const ear = await pull(page, [70, -60, 320], [60, 0, 260]);
+expect(ear.periods >= 1, `the ear grows while it is pulled: ${JSON.stringify(ear)}`);
+let after = (await page.evaluate(() => window.studio.store.geometry.header.elements));
+expect(after > count, `the ears have grown: ${count} -> ${after}`);
+await shot('ears');
+
+// Reload in between: the same document.
+const before = await state(page);
+await page.reload();
+await ready(page);
+const reloaded = await state(page);
+expect(JSON.stringify(reloaded.operations) === JSON.stringify(before.operations), 'the reloaded document is the same');
+expect(reloaded.revision === before.revision, 'the same revision after the reload');
+
+// Arms, undo and redo by their buttons.
+await click(page, '[data-tool=pull]');
+const small = await card(page, 'rhombic-12');
+await page.mouse.click(small.x, small.y);
+count = after;
+await pull(page, [150, -110, 20], [60, -120, 0]);
+after = (await page.evaluate(() => window.studio.store.geometry.header.elements));
+expect(after > count, `the arms have grown: ${count} -> ${after}`);
+await click(page, '[data-do=undo]');
+await page.waitForTimeout(100);
+await idle(page);
+expect(await page.evaluate(() => window.studio.store.geometry.header.elements) === count, 'undone');
+await click(page, '[data-do=redo]');
+await page.waitForTimeout(100);
+await idle(page);
+expect(await page.evaluate(() => window.studio.store.geometry.header.elements) === after, 'done again');
+
+// A drag beside the design turns the view.
+await drag(page, { x: 260, y: 780 }, { x: 620, y: 760 });
+await page.mouse.up();
+await page.waitForTimeout(200);
+await shot('turned');
+
+// An opening for the lamp holder: one element, not its image.
+await click(page, '[data-do=symmetric]');
+await click(page, '[data-tool=open]');
+const bottom = await page.evaluate(() => {
+  const { view, store } = window.studio, g = store.geometry, found = [];
+  for (let f = 0; f < g.header.elements; ++f) {
+    const c = [0, 1, 2, 3].map(k => view.vertex(g.quads[4 * f + k])).reduce((a, b) => a.add(b)).multiplyScalar(0.25), at = view.project(c);
+    if (document.elementFromPoint(at.x, at.y) === view.canvas && view.pick(at.x, at.y)?.face === f) found.push({ z: c.z, ...at });
+  }
+  return found.sort((a, b) => a.z - b.z)[0];
+});
+await page.mouse.click(bottom.x, bottom.y);
+await click(page, '[data-do=take-out]');
+await page.waitForTimeout(100);
+await idle(page);
+expect((await state(page)).operations.at(-1).op === 'open', 'opened');
+await shot('open');
+
+// A second tab sees the same and every change of the first; an old change is not taken.
+const second = (await open_studio(address, { browser })).page;
+expect((await state(second)).revision === (await state(page)).revision, 'the second tab shows the present document');
+await click(page, '[data-tool=select]');
+await click(page, '[data-do=undo]');
+await page.waitForTimeout(100);
+await idle(page);
+await second.waitForFunction(n => window.studio.store.state.operations.length === n, (await state(page)).operations.length, { timeout: 10000 });
+expect((await second.textContent('#notice')).length > 10, 'and is told');
+await click(page, '[data-do=redo]');
+await page.waitForTimeout(100);
+await idle(page);
+const stale = await second.evaluate(async () => { const s = window.studio.store; s.state.revision = 1; const done = await s.change('/api/undo'); return [done, s.state.revision]; });
+expect(stale[0] === false && stale[1] === (await state(page)).revision, 'an old change of the second tab is refused, and it shows the present document: ' + stale);
+await second.close();
+
+// Overlays with their legend.
+await click(page, '[data-menu=overlay]');
+await page.locator('.menu button', { hasText: 'Defect' }).click();
+expect(await page.isVisible('#legend'), 'a legend');
+await page.waitForTimeout(200);
+await shot('defect');
+await click(page, '[data-menu=overlay]');
+await page.locator('.menu button', { hasText: 'Sides' }).click();
+
+// Fabricate, look, download.
+await click(page, '[data-do=make]');
+await page.waitForSelector('[data-do=start]');
+await click(page, '[data-do=start]');
+await page.waitForSelector('[data-do=download], dialog [role=alert]', { timeout: 240000 });
+expect(await page.isVisible('[data-do=download]'), 'the kit is made: ' + (await page.textContent('dialog .body')).slice(0, 300));
+await page.waitForFunction(() => [...document.querySelectorAll('.gallery img')].some(i => i.complete && i.naturalWidth > 0), null, { timeout: 30000 });
+await shot('sheets');
+await click(page, '[data-tab=Player]');
+const player = page.frameLocator('iframe[title=Player]');
+await player.locator('#label').waitFor({ timeout: 60000 });
+await page.waitForTimeout(500);
+await shot('player');
+const [download] = await Promise.all([page.waitForEvent('download'), click(page, '[data-do=download]')]);
+await download.saveAs(`${folder}/kit.zip`);
+await click(page, '[data-do=close]');
+const final = await state(page);
+fs.writeFileSync(`${folder}/recorded.json`, JSON.stringify({ operations: final.operations, elements: await page.evaluate(() => window.studio.store.geometry.header.elements) }));
+await grasp(page, [0, 0, 0]);
+await shot('done');
+await browser.close();
+finish();
