@@ -49,9 +49,9 @@ expect((await state(page)).parts.length === 1, 'joined');
 
 // Ears: one pull, both grow.
 await click(page, '[data-tool=pull]');
-const brush = await card(page, 'polar-5x6');
+const brush = await card(page, 'polar-3x7');
 await page.mouse.click(brush.x, brush.y);
-expect(await page.evaluate(() => window.studio.tools.brush) === 'polar-5x6', 'a brush is chosen');
+expect(await page.evaluate(() => window.studio.tools.brush) === 'polar-3x7', 'a brush is chosen');
 let count = (await page.evaluate(() => window.studio.store.geometry.header.elements));
 const ear = await pull(page, [70, -60, 320], [60, 0, 260]);
 expect(ear.periods >= 1, `the ear grows while it is pulled: ${JSON.stringify(ear)}`);
@@ -69,7 +69,7 @@ expect(reloaded.revision === before.revision, 'the same revision after the reloa
 
 // Arms, undo and redo by their buttons.
 await click(page, '[data-tool=pull]');
-const small = await card(page, 'rhombic-12');
+const small = await card(page, 'polar-4x3');
 await page.mouse.click(small.x, small.y);
 count = after;
 await pull(page, [150, -110, 20], [60, -120, 0]);

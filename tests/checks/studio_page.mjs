@@ -36,22 +36,25 @@ export async function click(page, selector) {
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
 }
 
+// Where a shape's card is; the wheel over the library brings it into sight.
 export async function card(page, shape) {
-  const box = await page.locator(`[data-shape="${shape}"]`).boundingBox();
-  const panel = await page.locator('#library').boundingBox();
-  // The wheel over the library brings the card into sight.
-  await page.mouse.move(panel.x + 60, panel.y + 200);
-  await page.mouse.wheel(0, box.y - panel.y - 200);
-  let last = null;
-  for (;;) {
-    const now = await page.evaluate(shape => {
-      const r = document.querySelector(`[data-shape="${shape}"]`).getBoundingClientRect(), x = r.left + r.width / 2, y = r.top + r.height / 2;
-      return { x, y, free: document.elementFromPoint(x, y)?.closest('.shape')?.dataset.shape === shape };
-    }, shape);
-    if (now.free && last && now.y === last.y) return now;
-    last = now;
-    await page.waitForTimeout(150);
+  const look = () => page.evaluate(shape => {
+    const r = document.querySelector(`[data-shape="${shape}"]`).getBoundingClientRect(), x = r.left + r.width / 2, y = r.top + r.height / 2;
+    return { x, y, free: document.elementFromPoint(x, y)?.closest('.shape')?.dataset.shape === shape };
+  }, shape);
+  let now = await look(), steady = 0;
+  if (!now.free) {
+    const panel = await page.locator('#library').boundingBox();
+    await page.mouse.move(panel.x + 60, panel.y + 200);
+    await page.mouse.wheel(0, now.y - panel.y - 300);
   }
+  while (!now.free || steady < 3) {
+    await page.waitForTimeout(100);
+    const next = await look();
+    steady = next.y === now.y ? steady + 1 : 0;
+    now = next;
+  }
+  return now;
 }
 
 export async function place(page, shape, at) {
