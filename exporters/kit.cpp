@@ -3,6 +3,7 @@
 #include <future>
 #include <mutex>
 
+#include "core/building/bulb_hatch.h"
 #include "exporters/booklet.h"
 #include "exporters/manifest.h"
 #include "exporters/preview.h"
@@ -145,7 +146,7 @@ Expected<Kit> make_kit(const Design& design, const Replay& replay, const Piece& 
     Kit kit;
     kit.warnings = build.warnings;
     tell(options, "assembly plan");
-    const AssemblyPlan plan = assembly_plan(replay, piece.element, options.order);
+    const AssemblyPlan plan = design_plan(design, replay, piece.element, options.order);
     kit.scorecard = plan.scorecard;
     kit.files["surface.json"] = surface_json(replay.surface, piece.element, replay.embedding);
     if (auto ok = add_parts(kit, design, replay, plan, piece, options); !ok) {

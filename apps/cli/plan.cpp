@@ -2,7 +2,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/console.h"
-#include "core/building/assembly_plan.h"
+#include "core/building/bulb_hatch.h"
 #include "core/text.h"
 #include "exporters/plan_file.h"
 
@@ -34,7 +34,7 @@ Expected<int> run_plan(const std::string& path, Order order, bool json)
         return tl::make_unexpected(replayed.error());
     }
     progress.show("ordering the elements");
-    const AssemblyPlan plan = assembly_plan(*replayed, design->element, order);
+    const AssemblyPlan plan = design_plan(*design, *replayed, design->element, order);
     return print(json ? plan_json(*replayed, design->element, plan, booklet_layout(*replayed, plan, {}))
                       : as_text(plan.scorecard))
         .map([] { return 0; });

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <initializer_list>
 
 #include "core/building/orders.h"
 
@@ -10,6 +11,7 @@ namespace rhombloom {
 namespace {
 
 constexpr int most_passes = 3;
+constexpr double most_exposure = 1.05; // of the paper's, when the last element is given
 
 double ratio(double value, double reference)
 {
@@ -39,7 +41,8 @@ struct Search
     bool consider(const std::vector<char>& closed, const Taste& taste)
     {
         AssemblyPlan plan = finish_plan(
-            sources, greedy_order(sources, open_targets(sources.history, holes, closed), taste), Order::Best);
+            sources, greedy_order(sources, open_targets(sources.history, holes, closed, sources.last), taste),
+            Order::Best);
         const double its_cost = cost(plan.scorecard, paper);
         if (its_cost >= best_cost - 1e-9 || !plan_problems(sources.replay, sources.element, plan).empty()) {
             return false;
@@ -50,11 +53,15 @@ struct Search
     }
 };
 
-//! Closes a hole only where that pays: from all open, changing one after the other.
+//! Closes a hole only where that pays: from all open (or all closed, when open ones do not work), changing one after
+//! the other.
 std::vector<char> choose_closings(Search& search, const Taste& taste)
 {
     std::vector<char> closed(search.holes.count, 0);
-    search.consider(closed, taste);
+    if (!search.consider(closed, taste)) {
+        closed.assign(closed.size(), 1);
+        search.consider(closed, taste);
+    }
     bool better = true;
     for (int pass = 0; pass < most_passes && better; ++pass) {
         better = false;
@@ -70,18 +77,39 @@ std::vector<char> choose_closings(Search& search, const Taste& taste)
     return closed;
 }
 
+//! Tries other values of one liking after the other, keeping what is better.
+void choose_taste(Search& search, const std::vector<char>& closed)
+{
+    Taste taste;
+    const auto vary = [&](double Taste::*liking, std::initializer_list<double> values) {
+        for (const double value : values) {
+            Taste other = taste;
+            other.*liking = value;
+            if (search.consider(closed, other)) {
+                taste = other;
+            }
+        }
+    };
+    vary(&Taste::view, {0.0, 0.4, 0.7, 1.5, 2.5});
+    vary(&Taste::last, {0.0, 0.1, 0.6});
+    vary(&Taste::age, {0.0, 0.5, 1.0});
+    vary(&Taste::dangling, {0.4, 2.0});
+    vary(&Taste::view, {0.2, 0.5, 0.9, 1.2, 2.0});
+}
+
 } // namespace
 
 AssemblyPlan best_plan(const PlanSources& sources)
 {
     Search search{sources, finish_plan(sources, paper_order(sources), Order::Paper).scorecard, holes(sources.history)};
     const std::vector<char> closed = choose_closings(search, {});
-    for (const double view : {0.0, 0.4, 0.8, 1.5, 2.5}) {
-        for (const double last : {0.1, 0.5}) {
-            search.consider(closed, {view, last, 1});
-        }
+    choose_taste(search, closed);
+    if (search.best.steps.empty() && sources.last < 0) {
+        return finish_plan(sources, paper_order(sources), Order::Best);
     }
-    return std::move(search.best);
+    const bool too_open = static_cast<double>(search.best.scorecard.exposure) >
+                          most_exposure * static_cast<double>(search.paper.exposure);
+    return sources.last >= 0 && too_open ? AssemblyPlan() : std::move(search.best);
 }
 
 } // namespace rhombloom

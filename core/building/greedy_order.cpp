@@ -63,7 +63,7 @@ private:
     {
         const int b = joins(e);
         return b - (b == 1 ? taste_.dangling : 0) + (shown(e, view_) ? taste_.view : 0) +
-               (beside_last(e) ? taste_.last : 0) + 0.2 * age(e);
+               (beside_last(e) ? taste_.last : 0) + taste_.age * age(e);
     }
 
     int choose(const std::vector<int>& batch) const

@@ -80,12 +80,17 @@ Holes holes(const BuildHistory& history)
     return result;
 }
 
-std::vector<Target> open_targets(const BuildHistory& history, const Holes& holes, const std::vector<char>& closed)
+std::vector<Target> open_targets(const BuildHistory& history, const Holes& holes, const std::vector<char>& closed,
+                                 int last)
 {
     std::vector<Target> result;
     std::vector<char> built(history.element_count(), 0);
     for (std::size_t t = 0; t < history.targets.size(); ++t) {
-        const Target open = without(history.targets[t], passing(history, t, holes, closed));
+        std::vector<char> later = passing(history, t, holes, closed);
+        if (last >= 0) {
+            later[last] = 1;
+        }
+        const Target open = without(history.targets[t], later);
         std::vector<char> islands(history.element_count(), 1);
         for (const int e : continued_piece(open, built)) {
             islands[e] = 0;
@@ -94,6 +99,9 @@ std::vector<Target> open_targets(const BuildHistory& history, const Holes& holes
         for (int e = 0; e < history.element_count(); ++e) {
             built[e] = result.back().has(e);
         }
+    }
+    if (last >= 0) {
+        result.push_back(history.targets.back());
     }
     return result;
 }

@@ -12,6 +12,7 @@ struct PlanSources
     const Element& element;
     const BuildHistory& history;
     StageCoverage& coverage;
+    int last = -1; //!< the element to put in last (best order), a face of the final surface; -1: any
 };
 
 //! \brief The paper's order: first modelled, first built; each component spirals through its layers; every closed
@@ -35,6 +36,7 @@ struct Taste
     double view = 1;     //!< elements that the current view shows
     double last = 0.3;   //!< elements beside the last one
     double dangling = 1; //!< not hanging by one side only
+    double age = 0.2;    //!< closing the oldest rims first
 };
 
 //! \brief Where a later target takes elements away: a hole that can be left open from the start, or closed and
@@ -50,13 +52,20 @@ Holes holes(const BuildHistory& history);
 //! \brief The targets of the history with all holes open that are not \p closed (by hole).
 //! \details Where that tears a target into pieces, the one that goes on from what is built is kept; the others wait
 //! until a later component joins them.
-std::vector<Target> open_targets(const BuildHistory& history, const Holes& holes, const std::vector<char>& closed);
+//! \param last left out of all but one more target at the end; -1: none
+std::vector<Target> open_targets(const BuildHistory& history, const Holes& holes, const std::vector<char>& closed,
+                                 int last);
 
 //! \brief Greedy order: most built neighbours first, in the view that is held, beside the last element.
 std::vector<Step> greedy_order(const PlanSources& sources, const std::vector<Target>& targets, const Taste& taste);
 
 //! \brief The best plan found: several tastes and choices of what to close, scored (see the source).
+//! \details Without steps when a last element is asked for and no order ends with it that obeys the hard rules and has
+//! at most 1.05 of the exposure of the paper's order.
 AssemblyPlan best_plan(const PlanSources& sources);
+
+//! \brief Sum over the steps of the open sides.
+long exposure(const std::vector<Step>& steps);
 
 //! \brief A plan of these steps, with the temporary elements it uses renumbered without gaps, and its scorecard.
 AssemblyPlan finish_plan(const PlanSources& sources, std::vector<Step> steps, Order order);

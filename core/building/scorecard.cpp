@@ -76,7 +76,7 @@ double minutes(const Step& step, bool hard)
     return 0.35 + 0.25 * joins + (joins == 1 ? 0.1 : 0) + (joins == 4 ? 0.4 : 0) + (hard ? 0.2 : 0);
 }
 
-//! \brief By stage: does a face touch a vertex of negative defect, all of whose elements are there in that stage?
+//! \brief By stage: does a face touch a vertex of negative defect, all of whose elements the plan builds at some time?
 //! \details Where an element is never built, the vertex lies on an open rim and is easy.
 class Hardness
 {
@@ -92,10 +92,9 @@ public:
             stage_ = step.stage;
             face_ = faces_of_elements(replay_, plan_, stage_);
             shown_.assign(stage_surface(replay_, stage_).n_faces(), stage_ == last_stage(replay_));
-            const std::vector<char> elements = shown_elements(plan_, replay_.surface.n_faces(), stage_);
-            for (std::size_t e = 0; e < elements.size(); ++e) {
-                if (elements[e] && face_[e] >= 0) {
-                    shown_[face_[e]] = 1;
+            for (const int f : face_) {
+                if (f >= 0) {
+                    shown_[f] = 1;
                 }
             }
         }
@@ -232,6 +231,11 @@ std::string insert_problem(const Step& step, const Table& table, bool hard_plug)
 bool consistent(const Step& step, const Table& table)
 {
     const bool joining = step.kind == StepKind::Insert || step.kind == StepKind::Hook;
+    const Ports& sides = table.hooked[step.element];
+    const auto hooked = std::count_if(sides.begin(), sides.end(), [](const Port& p) { return p.element >= 0; });
+    if (step.kind == StepKind::Remove && hooked != static_cast<long>(step.joins.size())) {
+        return false; // a side would stay hooked to nothing
+    }
     return std::all_of(step.joins.begin(), step.joins.end(), [&](const Join& join) {
         const Port there = table.hooked[join.to][join.to_side];
         return table.present[join.to] && there == (joining ? Port{} : Port{step.element, join.side});

@@ -20,7 +20,8 @@ NEXT = (0xC8, 0x1E, 0x1E)
 JARS = ["preflight", "pdfbox2", "pdfbox2-tools", "xmpbox", "fontbox2", "commons-logging", "commons-io",
         "javax.activation", "jaxb-api"]
 DESIGNS = {"rhombic-6": "a4", "polar-3x3": "letter", "ball-30": "a4", "checker-120": "letter", "torus-12x6": "a4",
-           "tube-6x6": "a4", "dome-5x3": "letter", "sheet-4x6": "a4"}
+           "tube-6x6": "a4", "dome-5x3": "letter", "sheet-4x6": "a4", "sheet-1x1": "letter", "sheet-1x2": "a4",
+           "sheet-1x5": "a4", "sheet-1x7": "letter", "sheet-2x4": "a4"}
 
 
 def run(*command, **options):

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "exporters/booklet_layout.h"
 #include "tests/core/building/replays.h"
 
 namespace rhombloom {
@@ -20,6 +21,28 @@ TEST(Booklet, HasTheSameBytesTwice)
 {
     const Replay replay = replays::chain("ball-30", 2);
     EXPECT_EQ(booklet(replay)->files, booklet(replay)->files);
+}
+
+// Also when the last page is not full, and with fewer steps than cells.
+TEST(Booklet, GivesEachStepACellOfItsOwnOnEveryGrid)
+{
+    for (const char* name : {"sheet-1x1", "sheet-1x2", "sheet-1x5", "sheet-1x7", "sheet-2x4", "sheet-3x3"}) {
+        const Replay replay = replays::single(name);
+        const AssemblyPlan plan = assembly_plan(replay, Element{}, Order::Best);
+        for (const int grid : {0, 1, 2, 4, 6}) {
+            BookletOptions options;
+            options.steps_per_page = grid;
+            const BookletLayout layout = booklet_layout(replay, plan, options);
+            ASSERT_EQ(layout.places.size(), replay.surface.n_faces()) << name;
+            for (std::size_t k = 0; k < layout.places.size(); ++k) {
+                const int cells = layout.chapters[0].rows * layout.chapters[0].columns;
+                EXPECT_TRUE(grid == 0 || cells == grid) << name << grid;
+                EXPECT_EQ(layout.places[k].cell, static_cast<int>(k) % cells) << name << grid;
+                EXPECT_EQ(layout.places[k].page, front_pages + 2 + static_cast<int>(k) / cells) << name << grid;
+            }
+            EXPECT_EQ(layout.last_page, layout.places.back().page + 1);
+        }
+    }
 }
 
 TEST(Booklet, RefusesCharactersThatItsFontLacks)

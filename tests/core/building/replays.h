@@ -147,14 +147,19 @@ inline Replay chain(const std::string& name, int links)
     return replay;
 }
 
-//! A shape, and then the same with one element taken out (the lamp holder's).
-inline Replay opened(const std::string& name)
+//! The same with one element more taken out (the lamp holder's), if that leaves a surface in one piece.
+inline Replay opened(Replay replay, int number)
 {
-    Replay replay = single(name);
-    const SurfaceLists left = cut(lists(replay.surface), {static_cast<int>(replay.surface.n_faces()) - 1});
-    replay.surface = make_surface(left).value();
-    replay.embedding = embed(replay.surface, Element{});
-    replay.stages.push_back({"open", replay.surface});
+    const auto count = static_cast<int>(replay.surface.n_faces());
+    for (int i = 0; i < count; ++i) {
+        auto left = make_surface(cut(lists(replay.surface), {(number + i) % count}));
+        if (left) {
+            replay.surface = std::move(*left);
+            replay.embedding = embed(replay.surface, Element{});
+            replay.stages.push_back({"open", replay.surface});
+            break;
+        }
+    }
     return replay;
 }
 

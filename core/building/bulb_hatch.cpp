@@ -1,0 +1,140 @@
+#include "core/building/bulb_hatch.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "core/building/orders.h"
+#include "core/model/angular_defect.h"
+
+namespace rhombloom {
+
+namespace {
+
+bool is_hatch(const Operation& operation)
+{
+    const auto* open = std::get_if<Open>(&operation);
+    if (open == nullptr) {
+        return false;
+    }
+    std::string purpose = open->purpose;
+    std::transform(purpose.begin(), purpose.end(), purpose.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return purpose.find("hatch") != std::string::npos;
+}
+
+std::set<int> serials(const Surface& surface)
+{
+    std::set<int> result;
+    for (const Face f : surface.faces()) {
+        result.insert(surface.data(f).serial);
+    }
+    return result;
+}
+
+//! Serials of the elements that shared a side with one that the operation of \p stage took away.
+std::set<int> beside_opening(const Replay& replay, int stage)
+{
+    const Surface& before = stage_surface(replay, stage - 1);
+    const std::set<int> after = serials(stage_surface(replay, stage));
+    std::set<int> result;
+    for (const Face f : before.faces()) {
+        if (after.contains(before.data(f).serial)) {
+            continue;
+        }
+        for (const Face g : before.ff_range(f)) {
+            result.insert(before.data(g).serial);
+        }
+    }
+    return result;
+}
+
+bool holds_others(const Surface& surface, Face leaving)
+{
+    std::vector<char> seen(surface.n_faces(), 0);
+    seen[leaving.idx()] = 1;
+    std::vector<Face> open = {Face(leaving.idx() == 0 ? 1 : 0)};
+    std::size_t count = 2;
+    seen[open.front().idx()] = 1;
+    while (!open.empty()) {
+        const Face f = open.back();
+        open.pop_back();
+        for (const Face g : surface.ff_range(f)) {
+            if (!seen[g.idx()]) {
+                seen[g.idx()] = 1;
+                ++count;
+                open.push_back(g);
+            }
+        }
+    }
+    return count < surface.n_faces();
+}
+
+//! Sides to unhook, and one more for each vertex of negative defect.
+int effort(const Surface& surface, const Element& element, Face f)
+{
+    int sum = static_cast<int>(std::distance(surface.cff_begin(f), surface.cff_end(f)));
+    for (const Vertex v : surface.fv_range(f)) {
+        sum += !surface.is_boundary(v) && angular_defect(surface, element, v) < -1e-9;
+    }
+    return sum;
+}
+
+//! The one that keeps the shape least open when it waits for the end, every hole closed; -1: there is none.
+int best_hatch(const PlanSources& sources, const std::vector<int>& elements)
+{
+    const Holes all = holes(sources.history);
+    const std::vector<char> closed(all.count, 1);
+    std::pair<long, int> best{std::numeric_limits<long>::max(), -1};
+    for (const int e : elements) {
+        const auto steps = greedy_order(sources, open_targets(sources.history, all, closed, e), {});
+        best = std::min(best, {exposure(steps), e});
+    }
+    return best.second;
+}
+
+} // namespace
+
+std::vector<int> hatch_elements(const Design& design, const Replay& replay, const Element& element)
+{
+    const auto found = std::find_if(design.operations.rbegin(), design.operations.rend(), is_hatch);
+    const auto stage = static_cast<int>(design.operations.rend() - found) - 1;
+    const Surface& surface = replay.surface;
+    if (stage < 1 || replay.stages.size() != design.operations.size() || surface.n_faces() < 3) {
+        return {};
+    }
+    const std::set<int> beside = beside_opening(replay, stage);
+    std::vector<std::pair<int, int>> ranked;
+    for (const Face f : surface.faces()) {
+        if (beside.contains(surface.data(f).serial) && !holds_others(surface, f)) {
+            ranked.emplace_back(effort(surface, element, f), f.idx());
+        }
+    }
+    std::sort(ranked.begin(), ranked.end());
+    std::vector<int> result;
+    for (const auto& [joins, f] : ranked) {
+        result.push_back(f);
+    }
+    return result;
+}
+
+AssemblyPlan design_plan(const Design& design, const Replay& replay, const Element& element, Order order)
+{
+    if (order == Order::Paper) {
+        return assembly_plan(replay, element, order);
+    }
+    const BuildHistory history = build_history(replay, element);
+    StageCoverage coverage(replay);
+    PlanSources sources{replay, element, history, coverage};
+    sources.last = best_hatch(sources, hatch_elements(design, replay, element));
+    if (sources.last >= 0) {
+        AssemblyPlan plan = best_plan(sources);
+        if (!plan.steps.empty()) {
+            return plan;
+        }
+    }
+    sources.last = -1;
+    return best_plan(sources);
+}
+
+} // namespace rhombloom
