@@ -5,7 +5,6 @@
 #include <cairo/cairo-ft.h>
 #include <cairo/cairo-pdf.h>
 
-#include "core/text.h"
 #include "exporters/code_points.h"
 
 namespace rhombloom {
