@@ -133,7 +133,8 @@ constexpr LayerKind layer_kinds[] = {
     {"CUT_INNER", LayerUse::CutInner, "cuts slits"},
     {"CUT_OUTER", LayerUse::CutOuter, "cuts outlines"},
     {"SHEET", LayerUse::Sheet, "shows the sheet, not for the machine"},
-    {"REFERENCE", LayerUse::Reference, "is a square to measure on the screen, not for the machine"},
+    {"REFERENCE", LayerUse::Reference,
+     "is a square of 50 mm (20 or 10 on a full sheet) to measure on the screen, not for the machine"},
 };
 
 bool has_layer(const CutOptions& options, LayerUse use)

@@ -25,6 +25,11 @@ struct Limit
     double max;
 };
 
+double stroke_width(const CutOptions& options)
+{
+    return options.stroke_width.value_or(cut_stroke(options.colours));
+}
+
 Expected<void> check(const CutOptions& options, int count)
 {
     const Limit limits[] = {
@@ -35,7 +40,7 @@ Expected<void> check(const CutOptions& options, int count)
         {"kerf in x", options.kerf_x, 0, 2},
         {"kerf in y", options.kerf_y, 0, 2},
         {"share of spares", options.spares, 0, 1},
-        {"stroke width", options.stroke_width, 0.001, 10},
+        {"stroke width", stroke_width(options), 0.001, 2},
         {"cutting speed", options.speeds.cut, 0.01, 10000},
         {"engraving speed", options.speeds.engrave, 0.01, 10000},
         {"travel speed", options.speeds.travel, 0.01, 100000},
@@ -76,6 +81,7 @@ Expected<Nesting> lay_out(const Path& outline, double tolerance, int count, cons
     nest_options.margin = std::max(options.margin, std::max(options.kerf_x, options.kerf_y) / 2) + tolerance;
     nest_options.count = count;
     nest_options.grain = options.grain;
+    nest_options.effort = Effort::SaveSheets;
     if (options.remnant) {
         nest_options.remnant = Vec2(options.remnant->width, options.remnant->height);
     }
@@ -194,7 +200,7 @@ Expected<Drawing> sheet_drawing(Job& job, const Nesting& nesting, std::size_t in
 
 void add_drawing(FileSet& files, const std::string& name, const Drawing& drawing, const CutOptions& options)
 {
-    files["cut/" + name + ".svg"] = svg(drawing, {options.stroke_width});
+    files["cut/" + name + ".svg"] = svg(drawing, {stroke_width(options)});
     files["cut/" + name + ".dxf"] = dxf(drawing, options.dxf);
 }
 

@@ -152,6 +152,11 @@ Expected<ColourPreset> parse_colours(std::string_view name)
     return refuse("the colour preset \"" + std::string(name) + "\" is unknown: expected one of " + names);
 }
 
+double cut_stroke(ColourPreset preset)
+{
+    return preset == Trotec || preset == Ponoko ? 0.01 : 0.1;
+}
+
 unsigned cut_colour(ColourPreset preset, LayerUse use)
 {
     // Engrave, inner cut, outer cut, sheet border, reference square.

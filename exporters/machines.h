@@ -62,6 +62,9 @@ Expected<SheetSize> parse_sheet(std::string_view text);
 //! \brief The preset of that name: lightburn, trotec (or uls, epilog), k40, ponoko, glowforge, boxes.
 Expected<ColourPreset> parse_colours(std::string_view name);
 
+//! \brief Width of lines in SVG, mm: a hairline where thicker lines would be engraved, else what a screen can show.
+double cut_stroke(ColourPreset preset);
+
 //! \brief 0xRRGGBB of a layer.
 unsigned cut_colour(ColourPreset preset, LayerUse use);
 

@@ -154,7 +154,7 @@ int fill_remnant(const Piece& piece, const NestOptions& options, Nesting& nestin
 {
     const Vec2 size = *options.remnant;
     const Room room = room_of(size.x(), size.y(), options.margin);
-    const Layout full = densest_layout(piece, room);
+    const Layout full = densest_layout(piece, room, options.count, options.effort);
     if (full.empty()) {
         return 0;
     }
@@ -169,7 +169,7 @@ void fill_sheets(const Piece& piece, const NestOptions& options, int left, Nesti
 {
     const double width = options.sheet_width, height = options.sheet_height;
     const Room room = room_of(width, height, options.margin);
-    const Layout full = densest_layout(piece, room);
+    const Layout full = densest_layout(piece, room, left, options.effort);
     nesting.per_sheet = static_cast<int>(full.size());
     for (; left > 0; left -= nesting.per_sheet) {
         Layout layout = packed_layout(piece, room, full, std::min(left, nesting.per_sheet));

@@ -23,6 +23,14 @@ enum class Mirror
     Allowed
 };
 
+//! How long to look for one copy more on a sheet.
+enum class Effort
+{
+    Quick,      //!< patterns and rows alone
+    SaveSheets, //!< only where one copy more per sheet would save a sheet
+    FillSheets  //!< wherever more than one sheet is needed
+};
+
 //! \brief What to nest into. Lengths in mm.
 struct NestOptions
 {
@@ -33,6 +41,7 @@ struct NestOptions
     int count = 1;
     Grain grain = Grain::Any;
     Mirror mirror = Mirror::Never;
+    Effort effort = Effort::FillSheets;
     std::optional<Vec2> remnant; //!< width and height of an offcut that is filled first
 };
 

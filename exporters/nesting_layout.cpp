@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "exporters/nesting_improve.h"
 #include "exporters/nesting_rows.h"
+#include "exporters/nesting_squeeze.h"
 
 namespace rhombloom::nesting {
 
@@ -69,6 +70,15 @@ Layout packed_along(const Piece& piece, const Room& room, const Layout& full, in
     return best;
 }
 
+bool is_worth_squeezing(long per_sheet, long wanted, Effort effort)
+{
+    if (per_sheet == 0 || effort == Effort::Quick) {
+        return false;
+    }
+    const auto sheets = [&](long copies) { return (wanted + copies - 1) / copies; };
+    return effort == Effort::FillSheets ? wanted > per_sheet : sheets(per_sheet + 1) < sheets(per_sheet);
+}
+
 //! Angles at which a copy that nearly fills the room may fit: quarter turns, edges along a side, small steps.
 std::vector<double> fitting_angles(const Piece& piece)
 {
@@ -112,7 +122,7 @@ Layout single_copy(const Piece& piece, const Room& room)
     return {};
 }
 
-Layout densest_layout(const Piece& piece, const Room& room)
+Layout densest_layout(const Piece& piece, const Room& room, int wanted, Effort effort)
 {
     Layout best = single_copy(piece, room);
     for (const Trial& trial : trials_for(piece, room)) {
@@ -127,7 +137,15 @@ Layout densest_layout(const Piece& piece, const Room& room)
             best = std::move(layout);
         }
     }
-    return topped_up(piece, room, best);
+    best = topped_up(piece, room, best);
+    while (is_worth_squeezing(std::ssize(best), wanted, effort)) {
+        Layout more = squeezed(piece, room, best);
+        if (more.empty()) {
+            break;
+        }
+        best = std::move(more);
+    }
+    return best;
 }
 
 Layout packed_layout(const Piece& piece, const Room& room, const Layout& full, int count)

@@ -39,7 +39,8 @@ Vec2 upper_right(const Layout& layout, const Piece& piece);
 Layout single_copy(const Piece& piece, const Room& room);
 
 //! \brief As many copies in \p room as the search finds, at least one if one fits.
-Layout densest_layout(const Piece& piece, const Room& room);
+//! \param wanted  copies in all, on this sheet and the ones that follow
+Layout densest_layout(const Piece& piece, const Room& room, int wanted, Effort effort);
 
 //! \brief \p count copies, not more than \p full has, packed to the lower or the left side so that the offcut is large.
 Layout packed_layout(const Piece& piece, const Room& room, const Layout& full, int count);

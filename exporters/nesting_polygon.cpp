@@ -191,6 +191,26 @@ Expected<void> check_simple(const Polygon& polygon)
     return std::abs(signed_area(polygon)) > least_area ? Expected<void>{} : refuse("the outline encloses no area");
 }
 
+bool boundaries_meet(const Polygon& a, const Polygon& b)
+{
+    const Box box_a = box_of(a), box_b = box_of(b);
+    const Vec2 low = box_a.min.cwiseMax(box_b.min), high = box_a.max.cwiseMin(box_b.max);
+    const auto near = [&](const Vec2& p, const Vec2& q) {
+        return (p.cwiseMax(q).array() >= low.array()).all() && (p.cwiseMin(q).array() <= high.array()).all();
+    };
+    for (std::size_t i = 0, h = a.size() - 1; i < a.size(); h = i++) {
+        if (!near(a[h], a[i])) {
+            continue;
+        }
+        for (std::size_t j = 0, k = b.size() - 1; j < b.size(); k = j++) {
+            if (near(b[k], b[j]) && segments_meet(a[h], a[i], b[k], b[j])) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 Polygon inflated(const Polygon& polygon, double radius, double slack)
 {
     if (radius <= 0) {

@@ -51,6 +51,9 @@ std::vector<Vec2> long_edges(const Polygon& polygon, std::size_t count);
 //! \brief Refuse fewer than three points, numbers that are not finite, no area, touching or crossing edges.
 Expected<void> check_simple(const Polygon& polygon);
 
+//! \brief Does the boundary of \p a touch or cross that of \p b?
+bool boundaries_meet(const Polygon& a, const Polygon& b);
+
 //! \brief A polygon that contains every point closer than \p radius to \p polygon, exactly \p radius away along the
 //! edges and at most \p slack more at rounded corners. Cavities that close are filled.
 Polygon inflated(const Polygon& polygon, double radius, double slack);

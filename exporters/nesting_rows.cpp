@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <future>
 #include <optional>
-#include <thread>
 #include <vector>
 
 #include "core/units.h"
 #include "exporters/nesting_double.h"
+#include "exporters/nesting_parallel.h"
 #include "exporters/nesting_skyline.h"
 
 namespace rhombloom::nesting {
@@ -253,21 +251,10 @@ std::vector<TwoWays> rows_at(const Piece& piece, const Room& room, const std::ve
 {
     const Room lying{room.height, room.width};
     std::vector<TwoWays> rows(angles.size());
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&] {
-        for (std::size_t i = next++; i < angles.size(); i = next++) {
-            const double lying_angle = piece.grain == Grain::Any ? angles[i] : angles[i] - pi / 2;
-            rows[i] = {stacked_rows(piece, room, angles[i]), stacked_rows(piece, lying, lying_angle)};
-        }
-    };
-    std::vector<std::future<void>> others;
-    for (unsigned t = 1; t < std::thread::hardware_concurrency(); ++t) {
-        others.push_back(std::async(std::launch::async, work));
-    }
-    work();
-    for (auto& other : others) {
-        other.get();
-    }
+    for_all(angles.size(), [&](std::size_t i) {
+        const double lying_angle = piece.grain == Grain::Any ? angles[i] : angles[i] - pi / 2;
+        rows[i] = {stacked_rows(piece, room, angles[i]), stacked_rows(piece, lying, lying_angle)};
+    });
     return rows;
 }
 

@@ -9,7 +9,7 @@ namespace rhombloom {
 //! Line width of every path, mm. Drivers of Epilog, ULS and Trotec machines cut thin lines and engrave thick ones.
 struct SvgOptions
 {
-    double stroke_width = 0.01;
+    double stroke_width = 0.1;
 };
 
 //! \brief The drawing as SVG 1.1 for cutting programs.

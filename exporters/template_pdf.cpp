@@ -181,6 +181,7 @@ std::vector<Path> copies(const Path& outline, const Area& page)
     options.sheet_height = page.inner().y() - head;
     options.spacing = 2;
     options.count = most_copies;
+    options.effort = Effort::Quick;
     std::vector<Path> result;
     if (const auto nesting = nest(flatten(outline, flatten_tolerance), options)) {
         for (const Placement& placement : nesting->sheets[0].placements) {

@@ -79,6 +79,7 @@ Expected<void> apply_style(const CutArguments& arguments, CutOptions& options)
     if (!arguments.dxf.empty()) {
         options.dxf = arguments.dxf == "r12" ? DxfVersion::R12 : DxfVersion::R2000;
     }
+    options.stroke_width = arguments.stroke;
     options.engraving = arguments.plain ? Engraving::Off : Engraving::On;
     options.grain = arguments.grain;
     options.price_per_sheet = arguments.price_per_sheet;
@@ -101,6 +102,9 @@ std::shared_ptr<CutArguments> add_cut_options(CLI::App& command)
     add("--margin", a->margin, "free along the sheet's edges, mm (default 3, or the machine's)");
     add("--spares", a->spares, "extra pieces, e.g. 3%");
     add("--colours", a->colours, "layer colours: lightburn, trotec, k40, ponoko, glowforge, boxes");
+    add("--stroke", a->stroke, "width of lines in SVG, mm (default 0.1; 0.01 with the colours of trotec and ponoko)")
+        ->check(CLI::Range(0.001, 2.0))
+        ->option_text("MM");
     add("--dxf", a->dxf, "DXF version: r2000 (default) or r12")
         ->check(CLI::IsMember({"r2000", "r12"}))
         ->option_text("NAME");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
@@ -18,6 +19,7 @@ struct CutArguments
     std::string spares;
     double spacing = -1;
     double margin = -1;
+    std::optional<double> stroke;
     double price_per_sheet = 0;
     double price_per_minute = 0;
     bool plain = false; //!< no numbers and arrows

@@ -1,28 +1,16 @@
 #include "exporters/nesting.h"
 
-#include <fstream>
-
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
+
+#include "core/model/element.h"
+#include "exporters/outline.h"
+#include "tests/exporters/nesting_outlines.h"
 
 namespace rhombloom {
 namespace {
 
-std::vector<Vec2> outline_in(const std::string& name)
-{
-    std::ifstream file(std::string(RHOMBLOOM_SOURCE_DIR "/tests/data/") + name);
-    const auto json = nlohmann::json::parse(file);
-    std::vector<Vec2> outline;
-    for (const auto& p : json.at("outline")) {
-        outline.emplace_back(p.at(0).get<double>(), p.at(1).get<double>());
-    }
-    return outline;
-}
-
-std::vector<Vec2> rectangle(double width, double height)
-{
-    return {{0, 0}, {width, 0}, {width, height}, {0, height}};
-}
+using outlines::from_data;
+using outlines::rectangle;
 
 NestOptions sheet(double width, double height, double spacing, int count)
 {
@@ -45,7 +33,7 @@ int placed_copies(const Nesting& nesting)
 
 TEST(Nesting, TwentyEightDefaultElementsShareASheet)
 {
-    const auto nesting = nest(outline_in("nest_default_element.json"), sheet(600, 400, 2, 188));
+    const auto nesting = nest(from_data("nest_default_element.json"), sheet(600, 400, 2, 188));
     ASSERT_TRUE(nesting);
     EXPECT_GE(nesting->per_sheet, 28);
     EXPECT_LE(nesting->sheets.size(), 7U);
@@ -54,11 +42,32 @@ TEST(Nesting, TwentyEightDefaultElementsShareASheet)
 
 TEST(Nesting, FortyPiecesWithOpenHooksShareASheet)
 {
-    const auto nesting = nest(outline_in("nest_piece_a.json"), sheet(600, 400, 2, 188));
+    const auto nesting = nest(from_data("nest_piece_a.json"), sheet(600, 400, 2, 188));
     ASSERT_TRUE(nesting);
     EXPECT_GE(nesting->per_sheet, 40);
     EXPECT_LE(nesting->sheets.size(), 5U);
     EXPECT_EQ(placed_copies(*nesting), 188);
+}
+
+TEST(Nesting, MovesAndTurnsAllCopiesWhereNoPatternFits)
+{
+    const auto u = nest(outlines::u_shape(), sheet(300, 200, 2, 30));
+    ASSERT_TRUE(u);
+    EXPECT_GE(u->per_sheet, 16);
+    const Element large{.la = 100, .lb = 110, .alpha = radians(72), .thickness = 0.8};
+    const auto elements = nest(outline_points(hook_parameters(large), 48).value(), sheet(300, 200, 2, 9));
+    ASSERT_TRUE(elements);
+    EXPECT_GE(elements->per_sheet, 3);
+}
+
+TEST(Nesting, LooksForOneMoreOnlyWhereItSavesASheetIfToldSo)
+{
+    NestOptions options = sheet(300, 200, 2, 30);
+    options.effort = Effort::SaveSheets;
+    const auto saved = nest(outlines::u_shape(), options);
+    ASSERT_TRUE(saved);
+    EXPECT_EQ(saved->sheets.size(), 2U);
+    EXPECT_EQ(saved->per_sheet, 15);
 }
 
 TEST(Nesting, RectanglesFillASheetToTheLastMicrometre)
@@ -84,7 +93,7 @@ TEST(Nesting, RefusesAnOutlineThatCrossesItself)
 TEST(Nesting, IsTheSameTwice)
 {
     const auto options = sheet(300, 200, 2, 20);
-    const auto a = nest(outline_in("nest_piece_a.json"), options), b = nest(outline_in("nest_piece_a.json"), options);
+    const auto a = nest(from_data("nest_piece_a.json"), options), b = nest(from_data("nest_piece_a.json"), options);
     ASSERT_TRUE(a && b);
     ASSERT_EQ(a->sheets.size(), b->sheets.size());
     for (std::size_t i = 0; i < a->sheets.size(); ++i) {
