@@ -83,8 +83,9 @@ TEST(Crowd, PushesOverlappingCopiesApartWithinTheRoom)
 {
     const Piece piece = piece_for(outlines::l_shape(), Grain::Any);
     const Body body(piece);
-    Crowd crowd(body, {230, 150}, {{{60, 60}, 0.2}, {{75, 70}, 1.4}, {{150, 80}, 3.0}, {{140, 60}, 4.4}}, true);
-    EXPECT_GT(crowd.energy(), 100);
+    // Four boxes of 70 x 60 mm beside each other, disturbed.
+    Crowd crowd(body, {152, 132}, {{{40, 36}, 0.1}, {{108, 30}, -0.05}, {{33, 95}, 0.08}, {{107, 99}, 0.02}}, true);
+    EXPECT_GT(crowd.energy(), 10);
     EXPECT_TRUE(comes_apart(crowd));
     std::vector<Polygon> copies;
     for (const Pose& pose : crowd.poses()) {
@@ -104,7 +105,7 @@ TEST(Crowd, TurnsNothingAgainstTheGrain)
 {
     const Piece piece = piece_for(outlines::l_shape(), Grain::Fixed);
     const Body body(piece);
-    Crowd crowd(body, {300, 200}, {{{60, 60}, 0}, {{75, 70}, 0}}, false);
+    Crowd crowd(body, {300, 200}, {{{60, 60}, 0}, {{85, 80}, 0}}, false);
     EXPECT_TRUE(comes_apart(crowd));
     for (const Pose& pose : crowd.poses()) {
         EXPECT_EQ(pose.angle, 0);
