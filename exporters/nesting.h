@@ -74,8 +74,9 @@ struct Nesting
 
 //! \brief Lay \p count copies of one simple outline (any number of points, either sense) on as few sheets as found.
 //! \details Searches lattices of one and two copies per cell, rows parallel to a side, and free places along the
-//! edges, on the sheet at hand (cf. Stoyan and Pankratov, EJOR 113, 1999). Gaps hold to 1e-6 mm. The work is bounded
-//! by iterations, never by the clock: the same input gives the same layout.
+//! edges, on the sheet at hand (cf. Stoyan and Pankratov, EJOR 113, 1999); then looks for one copy more by moving and
+//! turning all of them at once. Gaps hold to 1e-6 mm. The work is bounded by iterations, never by the clock: the same
+//! input gives the same layout.
 //! Refuses outlines that cross themselves, impossible options, and copies larger than the sheet.
 Expected<Nesting> nest(const std::vector<Vec2>& outline, const NestOptions& options);
 
