@@ -47,6 +47,18 @@ std::string in_la(double mm, const ImportReport& report)
     return to_fixed(mm / report.la, 2) + " la (" + to_fixed(mm, 1) + " mm)";
 }
 
+//! Why the network cannot be built as it is; empty when it can.
+std::string build_problem(const ImportReport& report)
+{
+    constexpr double stretch_limit = 0.01;
+    if (report.embedding.converged && report.embedding.max_stretch <= stretch_limit) {
+        return {};
+    }
+    return "no network was found that can be built: an element would have to stretch by " +
+           to_fixed(100 * report.embedding.max_stretch, 2) +
+           " %, a sheet gives 1 %; try another number of elements or a target with gentler hollows";
+}
+
 std::string as_text(const ImportedMesh& made, const std::string& design)
 {
     const ImportReport& r = made.report;
@@ -65,6 +77,9 @@ std::string as_text(const ImportedMesh& made, const std::string& design)
     text += "largest stretch " + to_fixed(100 * r.embedding.max_stretch, 2) + " %, angular defects " +
             to_fixed(degrees(r.defects.min), 1) + " to " + to_fixed(degrees(r.defects.max), 1) + " degrees, " +
             std::to_string(r.hard_nodes) + " nodes hard to hook\n";
+    if (const std::string problem = build_problem(r); !problem.empty()) {
+        text += "problem: " + problem + "\n";
+    }
     return text + "wrote " + design + "\n";
 }
 
@@ -91,7 +106,8 @@ std::string as_json(const ImportedMesh& made)
                                          {"hard_nodes", r.hard_nodes},
                                          {"scale", r.scale},
                                          {"shift_mm", {r.shift.x(), r.shift.y(), r.shift.z()}},
-                                         {"repairs", r.repairs}};
+                                         {"repairs", r.repairs},
+                                         {"problem", build_problem(r)}};
     return root.dump(1) + "\n";
 }
 
@@ -148,7 +164,10 @@ Expected<int> run_import(const ImportArguments& arguments)
     if (auto ok = store(*made, arguments.output, std::filesystem::path(arguments.mesh).stem().string()); !ok) {
         return tl::make_unexpected(ok.error());
     }
-    return print(arguments.json ? as_json(*made) : as_text(*made, arguments.output)).map([] { return 0; });
+    const bool good = build_problem(made->report).empty();
+    return print(arguments.json ? as_json(*made) : as_text(*made, arguments.output)).map([good] {
+        return good ? 0 : 1;
+    });
 }
 
 } // namespace

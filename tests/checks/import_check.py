@@ -9,9 +9,6 @@ import sys
 import tempfile
 
 program, source = sys.argv[1], pathlib.Path(sys.argv[2])
-sys.path.insert(0, str(source / "examples/targets"))
-import make_targets  # noqa: E402
-
 work = pathlib.Path(tempfile.mkdtemp(prefix="rhombloom-import-"))
 problems = []
 checked = 0

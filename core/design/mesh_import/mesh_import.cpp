@@ -146,7 +146,8 @@ Expected<ImportedMesh> import_mesh(const TriangleMesh& mesh, const ImportOptions
     result.target = std::move(found->target);
     result.report.scale = size->factor * found->target_scale;
     if (size->height > 0) {
-        rescale(result, found->surface, size->height / bounds(result.target).sizes().z());
+        const double height = bounds(whole).sizes().z() * found->target_scale;
+        rescale(result, found->surface, size->height / height);
     }
     stand(result, found->surface);
     transform(whole, result.report.scale / size->factor, result.report.shift);

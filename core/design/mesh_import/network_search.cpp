@@ -6,6 +6,7 @@
 
 #include "core/design/mesh_import/curvature_match.h"
 #include "core/design/mesh_import/join_network.h"
+#include "core/design/mesh_import/network_trial.h"
 #include "core/design/mesh_import/remesh.h"
 #include "core/design/pose.h"
 #include "core/text.h"
@@ -14,10 +15,10 @@ namespace rhombloom {
 
 namespace {
 
-constexpr double stretch_limit = 0.0095;   // a little below what a sheet gives
-constexpr double detail = 6;               // triangles' edges of the working target per edge of the network
-constexpr double count_tolerance = 0.03;   // of the number of elements
-constexpr int most_matched_vertices = 900; // of the triangulation; the misfit's matrix is dense
+constexpr double detail = 6;             // triangles' edges of the working target per edge of the network
+constexpr double count_tolerance = 0.03; // of the number of elements
+constexpr int relax_sweeps = 20;
+constexpr std::size_t most_matched_vertices = 900; // of the triangulation; the misfit's matrix is dense
 
 int max_degree(const Element& element)
 {
@@ -60,53 +61,19 @@ TriangleMesh remesh_to_count(const TriangleMesh& start, const MeshTree& target, 
     return with_edge_count(best, target, wanted, options);
 }
 
-struct Search
+//! Ever cooler: the first shake the triangulation, the last only improve it.
+std::vector<MatchOptions> matchings(const RemeshOptions& remeshing)
 {
-    const MeshTree& target;
-    const Element& element;
-    const SearchOptions& options;
-    std::optional<FoundNetwork> best;
-
-    double score(const FoundNetwork& found) const
-    {
-        const double excess = std::max(0.0, found.embedding.max_stretch - stretch_limit);
-        constexpr double price = 200; // la per unit of stretch beyond the limit
-        return found.distance.rms() / element.la + (excess > 0 ? 1 + price * excess : 0) +
-               (found.embedding.converged ? 0 : 100);
+    std::vector<MatchOptions> result;
+    for (const double temperature : {2e-3, 3e-4}) {
+        MatchOptions options;
+        options.edge = remeshing.edge;
+        options.max_degree = std::min(7, remeshing.max_degree);
+        options.temperature = temperature;
+        options.seed = static_cast<unsigned>(result.size() + 1);
+        result.push_back(options);
     }
-
-    void consider(const TriangleMesh& triangles);
-};
-
-void Search::consider(const TriangleMesh& triangles)
-{
-    auto surface = make_surface(join_network(triangles, target));
-    if (!surface) {
-        return;
-    }
-    FoundNetwork found;
-    EmbedOptions quick = options.embedding;
-    quick.tolerance = 1e-6; // a candidate need not be exact
-    found.embedding = embed_in_place(*surface, element, quick);
-    const Eigen::Affine3d pose = fit(*surface, target, options.rescale);
-    const double scale = std::cbrt(pose.linear().determinant());
-    found.target_scale = 1 / scale;
-    found.surface = std::move(*surface);
-    for (const Vertex v : found.surface.vertices()) {
-        found.surface.set_point(v, pose * found.surface.point(v));
-    }
-    found.distance = distance(found.surface, target);
-    // Measured on the target as it was; all lengths now grow so that the elements have their own size again.
-    for (const Vertex v : found.surface.vertices()) {
-        found.surface.set_point(v, found.surface.point(v) / scale);
-    }
-    for (Deviation* d : {&found.distance.to_target, &found.distance.from_target}) {
-        d->rms /= scale;
-        d->max /= scale;
-    }
-    if (!best || score(found) < score(*best)) {
-        best = std::move(found);
-    }
+    return result;
 }
 
 } // namespace
@@ -124,40 +91,51 @@ double area_per_element(double edge)
 
 Expected<FoundNetwork> search_network(const TriangleMesh& target, const Element& element, const SearchOptions& options)
 {
-    constexpr int attempts = 10;
-    constexpr double first_temperature = 5e-3;
     const auto tell = [&](const std::string& what) { return !options.progress || options.progress(what); };
+    tell("remeshing");
     RemeshOptions remeshing;
     remeshing.edge = triangle_edge(element);
     remeshing.max_degree = max_degree(element);
-    tell("remeshing");
     const MeshTree tree(even_target(target, remeshing.edge));
-    TriangleMesh triangles = remesh_to_count(tree.mesh(), tree, options.elements, remeshing);
-    relax_springs(triangles, tree, remeshing.edge, 20);
-    Search search{tree, element, options, std::nullopt};
-    search.consider(triangles);
-    MatchOptions matching;
-    matching.edge = remeshing.edge;
-    matching.max_degree = std::min(7, remeshing.max_degree);
-    matching.temperature = first_temperature;
-    const bool matchable = triangles.points.size() <= most_matched_vertices;
-    for (int i = 0; i < attempts && matchable; ++i) {
-        if (!tell("network " + std::to_string(i + 1) + " of " + std::to_string(attempts))) {
-            return refuse("stopped");
+    Trials trials{tree, element, options};
+    std::optional<Trial> best;
+    const auto consider = [&](const TriangleMesh& triangles) {
+        auto trial = settle(triangles, triangle_middles(triangles, tree), trials);
+        if (trial && (!best || trial->score < best->score)) {
+            best = std::move(trial);
         }
-        match_curvature(triangles, tree, matching);
-        search.consider(triangles);
-        matching.temperature *= 0.5;
-        ++matching.seed;
+    };
+    for (const double share : {1.0, 1.06}) {
+        RemeshOptions start = remeshing;
+        start.edge *= share;
+        TriangleMesh triangles = remesh_to_count(tree.mesh(), tree, options.elements, start);
+        consider(triangles);
+        relax_springs(triangles, tree, remeshing.edge, relax_sweeps);
+        consider(triangles);
+        for (const MatchOptions& matching : matchings(remeshing)) {
+            if (!tell("matching curvature")) {
+                return refuse("stopped");
+            }
+            if (triangles.points.size() <= most_matched_vertices) {
+                match_curvature(triangles, tree, matching);
+                consider(triangles);
+            }
+        }
     }
-    if (!search.best || !search.best->embedding.converged) {
+    if (best) {
+        tell("easing the network");
+        trials.max_iterations = 400; // from a settled network next to it
+        polish(*best, trials, std::min(8, remeshing.max_degree));
+    }
+    if (!best || !best->found.embedding.converged) {
         return refuse("no network of " + std::to_string(options.elements) +
                       " elements comes to rest on this target: try more elements");
     }
-    search.best->embedding = embed_in_place(search.best->surface, element, options.embedding);
-    search.best->target = tree.mesh();
-    transform(search.best->target, search.best->target_scale, Vec3::Zero());
-    return std::move(*search.best);
+    FoundNetwork found = std::move(best->found);
+    found.embedding = embed_in_place(found.surface, element, options.embedding);
+    found.target = tree.mesh();
+    transform(found.target, found.target_scale, Vec3::Zero());
+    return found;
 }
 
 } // namespace rhombloom

@@ -1,0 +1,183 @@
+#include <gtest/gtest.h>
+
+#include "core/design/design_file.h"
+#include "core/design/history.h"
+#include "core/design/mesh_import/curvature_match.h"
+#include "core/design/mesh_import/join_network.h"
+#include "core/design/mesh_import/mesh_import.h"
+#include "core/design/mesh_import/mesh_repair.h"
+#include "core/design/mesh_import/mesh_wrap.h"
+#include "core/design/mesh_import/remesh.h"
+#include "core/model/triangulation.h"
+#include "core/model/validity.h"
+
+namespace rhombloom {
+
+namespace {
+
+TriangleMesh sphere(double radius)
+{
+    const Triangulation unit = geodesic(Deltahedron::Icosahedron, 4, 0);
+    TriangleMesh mesh{unit.points, unit.triangles};
+    transform(mesh, radius, Vec3::Zero());
+    return mesh;
+}
+
+ImportedMesh imported_ball()
+{
+    ImportOptions options;
+    options.size.elements = 120;
+    auto made = import_mesh(sphere(50), options);
+    EXPECT_TRUE(made) << (made ? "" : made.error().message);
+    return std::move(*made);
+}
+
+const ImportedMesh& same_ball()
+{
+    static const ImportedMesh ball = imported_ball();
+    return ball;
+}
+
+} // namespace
+
+TEST(MeshTree, NearestPointIsThatOfTheNearestTriangle)
+{
+    const MeshTree tree(sphere(1));
+    for (const Vec3& p : {Vec3(2, 1, 0.5), Vec3(0.1, -0.2, 0.3), Vec3(-1, 3, -2)}) {
+        double best = 1e9;
+        for (const Triangle& t : tree.mesh().triangles) {
+            const auto& q = tree.mesh().points;
+            best = std::min(best, (nearest_on_triangle(p, q[t[0]], q[t[1]], q[t[2]]) - p).norm());
+        }
+        EXPECT_DOUBLE_EQ(tree.nearest(p).distance, best);
+    }
+}
+
+TEST(MeshTree, WindingNumberTellsInsideFromOutside)
+{
+    const MeshTree tree(sphere(1));
+    EXPECT_NEAR(tree.winding_number({0.3, 0.2, -0.4}), 1, 0.02);
+    EXPECT_NEAR(tree.winding_number({0.3, 1.2, -0.4}), 0, 0.02);
+}
+
+TEST(MeshCurvature, SumsToFourPiOnASphere)
+{
+    double sum = 0;
+    for (const double k : point_curvature(sphere(3))) {
+        sum += k;
+    }
+    EXPECT_NEAR(sum, 4 * pi, 1e-9);
+}
+
+TEST(JoinNetwork, HasOneElementPerEdgeAndSidesThatAlternate)
+{
+    const TriangleMesh mesh = sphere(100);
+    const MeshTree tree(mesh);
+    const auto surface = make_surface(join_network(mesh, triangle_middles(mesh, tree)));
+    ASSERT_TRUE(surface);
+    EXPECT_EQ(surface->n_faces(), mesh.triangles.size() * 3 / 2);
+    EXPECT_TRUE(validate(*surface, Element{}).ok());
+}
+
+TEST(Remesh, MeetsTheNumberOfEdgesAndKeepsTheGenus)
+{
+    const MeshTree tree(sphere(100));
+    RemeshOptions options;
+    options.edge = 60;
+    const TriangleMesh mesh = with_edge_count(remesh(tree.mesh(), tree, options), tree, 150, options);
+    EXPECT_NEAR(1.5 * static_cast<double>(mesh.triangles.size()), 150, 2);
+    EXPECT_EQ(mesh.points.size() - mesh.triangles.size() / 2, 2U);
+}
+
+TEST(Repair, LeavesASoundMeshAlone)
+{
+    const auto repaired = repair(sphere(10), {});
+    ASSERT_TRUE(repaired);
+    EXPECT_TRUE(repaired->repairs.empty());
+    EXPECT_EQ(repaired->mesh.triangles.size(), sphere(10).triangles.size());
+}
+
+TEST(Repair, TurnsAllTrianglesOutward)
+{
+    TriangleMesh mesh = sphere(10);
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        std::swap(mesh.triangles[i][0], mesh.triangles[i][1]);
+    }
+    const auto repaired = repair(mesh, {});
+    ASSERT_TRUE(repaired);
+    EXPECT_NEAR(signed_volume(repaired->mesh), signed_volume(sphere(10)), 1e-6);
+}
+
+TEST(Repair, ClosesAHole)
+{
+    TriangleMesh mesh = sphere(10);
+    mesh.triangles.pop_back();
+    const auto repaired = repair(mesh, {});
+    ASSERT_TRUE(repaired);
+    EXPECT_EQ(repaired->repairs.size(), 1U);
+    EXPECT_NEAR(signed_volume(repaired->mesh), signed_volume(sphere(10)), 1);
+}
+
+TEST(Repair, WrapsTwoCrossingBallsAsOneSolid)
+{
+    TriangleMesh mesh = sphere(10);
+    TriangleMesh other = sphere(10);
+    transform(other, 1, Vec3(8, 1, 0));
+    for (Triangle t : other.triangles) {
+        for (int& v : t) {
+            v += static_cast<int>(mesh.points.size());
+        }
+        mesh.triangles.push_back(t);
+    }
+    mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
+    const auto repaired = repair(mesh, {});
+    ASSERT_TRUE(repaired);
+    const double ball = signed_volume(sphere(10));
+    EXPECT_GT(signed_volume(repaired->mesh), 1.3 * ball);
+    EXPECT_LT(signed_volume(repaired->mesh), 1.8 * ball);
+}
+
+TEST(ImportMesh, MakesABallThatCanBeBuilt)
+{
+    const ImportedMesh& made = same_ball();
+    EXPECT_NEAR(made.report.elements, 120, 6);
+    EXPECT_LT(made.report.distance.rms(), 0.25 * made.report.la);
+    EXPECT_LT(made.report.embedding.max_stretch, 0.01);
+    EXPECT_TRUE(made.report.embedding.converged);
+}
+
+TEST(ImportMesh, HeightAndElementsSettleTheSizeOfTheElement)
+{
+    ImportOptions options;
+    options.size.elements = 120;
+    options.size.height = 300;
+    const auto made = import_mesh(sphere(50), options);
+    ASSERT_TRUE(made);
+    EXPECT_NEAR(made->element.lb / made->element.la, 1.1, 1e-9);
+    EXPECT_NEAR(made->report.scale * bounds(sphere(50)).sizes().z(), 300, 1e-6);
+}
+
+TEST(ImportMesh, TheDesignFileReplaysToTheSameSurface)
+{
+    const ImportedMesh& made = same_ball();
+    Design design;
+    design.element = made.element;
+    design.operations = {made.operation, Flip{"body", Reference{}, false}};
+    const auto read = parse_design(write_design(design));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(write_design(*read), write_design(design));
+    const auto replayed = replay(*read);
+    ASSERT_TRUE(replayed) << replayed.error().message;
+    const Surface& surface = replayed->stages.front().surface;
+    for (const Vertex v : surface.vertices()) {
+        EXPECT_LT((surface.point(v) - made.operation.positions[v.idx()]).norm(), 0.1);
+    }
+}
+
+TEST(ImportMesh, IsTheSameEveryTime)
+{
+    EXPECT_EQ(write_design({"", {}, {}, {imported_ball().operation}}),
+              write_design({"", {}, {}, {same_ball().operation}}));
+}
+
+} // namespace rhombloom
