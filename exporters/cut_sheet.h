@@ -36,7 +36,7 @@ struct CutOptions
     double spares = 0; //!< share of the count, rounded up
     Engraving engraving = Engraving::On;
     ColourPreset colours = ColourPreset::LightBurn;
-    bool annotations = true; //!< sheet border and reference square
+    bool annotations = true;                 //!< sheet border and reference square
     std::optional<double> stroke_width = {}; //!< of SVG lines; by default as the colours' machines want it
     DxfVersion dxf = DxfVersion::R2000;
     std::optional<SheetSize> remnant = {}; //!< an offcut that is filled first
