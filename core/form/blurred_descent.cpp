@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/form/newton_system.h"
@@ -8,10 +9,15 @@ namespace rhombloom {
 namespace {
 
 constexpr int max_cycles = 12;
-constexpr int steps_per_cycle = 15;       // a factorisation costs about as much as these on large surfaces
-constexpr double settled_decrease = 1e-6; // relative, over a cycle
+constexpr double settled_decrease = 1e-8; // relative, over a cycle
 constexpr double first_damping = 0.1;
 constexpr double first_floor = 0.01;
+
+// As many as cost about as much as a factorisation.
+int steps_per_cycle(const EmbeddingTerms& terms)
+{
+    return std::clamp(static_cast<int>(15 * std::sqrt(terms.vertex_count / 30000.0)), 15, 40);
+}
 
 double mean_hinge_angle(const EmbeddingTerms& terms, const Eigen::VectorXd& x)
 {
@@ -32,9 +38,10 @@ MinimiseResult blurred_descent(const EmbeddingTerms& terms, NewtonSystem& system
     LimitedMemory memory(20);
     const LimitedMemory::Seed seed = [&](const Eigen::VectorXd& gradient) { return system.solve(gradient); };
     HessianOptions blurred{first_damping, 0.1 * mean_hinge_angle(terms, iterate.x), first_floor};
+    const int steps = steps_per_cycle(terms);
     for (int cycle = 0; cycle < max_cycles && system.factor_blurred(iterate, blurred); ++cycle) {
         const double before = iterate.energy;
-        for (int k = 0; k < steps_per_cycle; ++k, ++result.iterations) {
+        for (int k = 0; k < steps; ++k, ++result.iterations) {
             if (should_stop(iterate, options, result)) {
                 return result;
             }

@@ -1,5 +1,7 @@
 #include "core/form/dense_kernels.h"
 
+#include "core/form/instruction_set.h"
+
 namespace rhombloom {
 
 namespace {
@@ -10,9 +12,7 @@ constexpr int paired = 1;
 #include "core/form/dense_kernels.inl"
 } // namespace portable
 
-#if defined(__x86_64__) && defined(__GNUC__)
-#define RHOMBLOOM_X86 1
-
+#ifdef RHOMBLOOM_X86
 #pragma GCC push_options
 #pragma GCC target("avx2")
 namespace avx2 {
@@ -35,14 +35,10 @@ constexpr int paired = 2;
 const DenseKernels& choose()
 {
 #ifdef RHOMBLOOM_X86
-    if (__builtin_cpu_supports("avx512f")) {
-        return avx512::table;
-    }
-    if (__builtin_cpu_supports("avx2")) {
-        return avx2::table;
-    }
-#endif
+    return best_kernels(portable::table, &avx2::table, &avx512::table);
+#else
     return portable::table;
+#endif
 }
 
 } // namespace

@@ -16,6 +16,8 @@ namespace {
 
 using Eigen::VectorXd;
 
+constexpr std::size_t smallest_parallel_surface = 1000; // elements; below, starting threads costs more than it brings
+
 Eigen::Matrix3Xd positions(const Surface& surface)
 {
     Eigen::Matrix3Xd points(3, surface.n_vertices());
@@ -100,13 +102,14 @@ std::string remark(const Settled& settled)
     return settled.guarded ? "elements collapse: the shape is in equilibrium only with the barrier against it" : "";
 }
 
-MinimiseOptions minimise_options(const EmbedOptions& options, double la)
+MinimiseOptions minimise_options(const EmbedOptions& options, double la, std::size_t elements)
 {
+    const bool is_small = elements < smallest_parallel_surface;
     using Clock = std::chrono::steady_clock;
     MinimiseOptions out;
     out.tolerance = options.tolerance;
     out.max_iterations = options.max_iterations;
-    out.threads = options.threads > 0 ? options.threads : default_threads();
+    out.threads = options.threads > 0 ? options.threads : is_small ? 1 : default_threads();
     const auto begin = Clock::now();
     out.progress = [&options, begin, la, iteration = 0, go_on = true](int, const Iterate& iterate) mutable {
         const std::chrono::duration<double> spent = Clock::now() - begin;
@@ -129,7 +132,7 @@ EmbedReport embed(Surface& surface, const Element& element, const EmbedOptions& 
     EmbeddingTerms terms = embedding_terms(surface, element, options);
     const Eigen::Matrix3Xd start = positions(surface);
     VectorXd x = unknowns(start, element.la);
-    const Settled settled = settle(terms, x, minimise_options(options, element.la));
+    const Settled settled = settle(terms, x, minimise_options(options, element.la, surface.n_faces()));
     Eigen::Matrix3Xd points = element.la * x.reshaped(3, surface.n_vertices());
     align_rigidly(points, start);
     for (const Vertex v : surface.vertices()) {

@@ -47,23 +47,23 @@ Iterate iterate_at(const EmbeddingTerms& terms, VectorXd x)
     return iterate;
 }
 
-bool line_search(const EmbeddingTerms& terms, Iterate& iterate, const VectorXd& direction,
-                 const LineSearchOptions& options)
+double line_search(const EmbeddingTerms& terms, Iterate& iterate, const VectorXd& direction,
+                   const LineSearchOptions& options)
 {
     const double slope = direction.dot(iterate.gradient);
     if (!(slope < 0)) {
-        return false;
+        return 0;
     }
     double scale = std::min(options.first_step, options.max_move / largest_move(direction));
     for (int k = 0; k < max_trials; ++k) {
         Iterate next = iterate_at(terms, iterate.x + scale * direction);
         if (is_acceptable(iterate, next, scale, slope)) {
             iterate = std::move(next);
-            return true;
+            return scale;
         }
         scale = shorter(iterate, next, scale, slope);
     }
-    return false;
+    return 0;
 }
 
 } // namespace rhombloom

@@ -22,10 +22,10 @@ struct LineSearchOptions
     double max_move = 2;   //!< la: no vertex moves farther in one step
 };
 
-//! \brief Go along \p direction until the energy has decreased enough (Armijo); false, and nothing moved, when it does
-//! not.
+//! \brief Go along \p direction until the energy has decreased enough (Armijo).
 //! \details Where the decrease to be expected drowns in roundoff, a smaller gradient counts instead.
-bool line_search(const EmbeddingTerms& terms, Iterate& iterate, const Eigen::VectorXd& direction,
-                 const LineSearchOptions& options);
+//! \return the share of \p direction gone; 0, and nothing moved, when the energy does not decrease.
+double line_search(const EmbeddingTerms& terms, Iterate& iterate, const Eigen::VectorXd& direction,
+                   const LineSearchOptions& options);
 
 } // namespace rhombloom

@@ -1,12 +1,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/form/minimise.h"
 #include "core/form/newton_system.h"
+#include "core/form/quasi_newton.h"
 
 namespace rhombloom {
 
 namespace {
+
+// A step cut short has run into hinges that become concave. Before the next factorisation, steps with the old one.
+constexpr double shortened = 0.5;
+constexpr int followers = 8;
 
 // Notices that neither the energy nor the gradient gets anywhere.
 class Stagnation
@@ -33,6 +37,20 @@ private:
     double gradient_;
 };
 
+// Quasi-Newton steps with the factor at hand, after the last step and by its memory.
+void follow_up(const EmbeddingTerms& terms, const NewtonSystem& system, const Iterate& last, Iterate& iterate,
+               const MinimiseOptions& options)
+{
+    LimitedMemory memory(followers);
+    memory.remember(iterate.x - last.x, iterate.gradient - last.gradient);
+    const LimitedMemory::Seed seed = [&](const Eigen::VectorXd& gradient) { return system.solve(gradient); };
+    for (int k = 0; k < followers && iterate.gradient_norm() > options.tolerance; ++k) {
+        if (!quasi_newton_step(terms, iterate, memory, seed)) {
+            return;
+        }
+    }
+}
+
 } // namespace
 
 MinimiseResult newton(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options)
@@ -50,7 +68,15 @@ MinimiseResult newton_with(NewtonSystem& system, const EmbeddingTerms& terms, It
 {
     MinimiseResult result;
     Stagnation stagnation(iterate);
-    while (!stagnation.lasts(iterate) && line_search(terms, iterate, system.direction(iterate), {1, 2})) {
+    while (!stagnation.lasts(iterate)) {
+        const Iterate last = iterate;
+        const double share = line_search(terms, iterate, system.direction(iterate), {1, 2});
+        if (share == 0) {
+            break;
+        }
+        if (share < shortened && is_large(terms)) {
+            follow_up(terms, system, last, iterate, options);
+        }
         ++result.iterations;
         if (should_stop(iterate, options, result)) {
             return result;

@@ -52,7 +52,7 @@ bool quasi_newton_step(const EmbeddingTerms& terms, Iterate& iterate, LimitedMem
     const bool steepest = memory.empty() && !seed;
     const VectorXd direction = steepest ? VectorXd(-first_move / iterate.gradient_norm() * iterate.gradient)
                                         : memory.direction(iterate.gradient, seed);
-    if (line_search(terms, iterate, direction, {1, 2})) {
+    if (line_search(terms, iterate, direction, {1, 2}) > 0) {
         memory.remember(iterate.x - last.x, iterate.gradient - last.gradient);
         return true;
     }

@@ -1,5 +1,7 @@
 #include "core/form/term_kernels.h"
 
+#include "core/form/instruction_set.h"
+
 #include <initializer_list>
 
 namespace rhombloom {
@@ -47,9 +49,7 @@ namespace portable {
 #include "core/form/term_kernels.inl"
 } // namespace portable
 
-#if defined(__x86_64__) && defined(__GNUC__)
-#define RHOMBLOOM_X86 1
-
+#ifdef RHOMBLOOM_X86
 #pragma GCC push_options
 #pragma GCC target("avx2")
 namespace avx2 {
@@ -68,14 +68,10 @@ namespace avx512 {
 const TermKernels& choose()
 {
 #ifdef RHOMBLOOM_X86
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) {
-        return avx512::table;
-    }
-    if (__builtin_cpu_supports("avx2")) {
-        return avx2::table;
-    }
-#endif
+    return best_kernels(portable::table, &avx2::table, &avx512::table);
+#else
     return portable::table;
+#endif
 }
 
 } // namespace
