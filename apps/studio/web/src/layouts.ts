@@ -54,6 +54,8 @@ export class Layouts {
     this.joins = structuredClone(layout?.joins ?? []);
     this.chosen = -1;
     this.panel.hidden = false;
+    document.getElementById('hint')!.hidden = true;
+    this.view.cover(0.58);
     this.build();
     if (this.elements.length === 0) this.add();
     this.changed();
@@ -61,6 +63,8 @@ export class Layouts {
 
   close(): void {
     this.panel.hidden = true;
+    document.getElementById('hint')!.hidden = false;
+    this.view.cover(0);
     ++this.asked;
     this.view.show(this.store.geometry);
     this.done();

@@ -13,6 +13,16 @@ interface KitState {
 const pollEvery = 300; // ms
 type Tab = 'Sheets' | 'Booklet' | 'Player' | 'Files';
 
+// A cut file on the screen: hairlines, which lasers want, are drawn so wide that they can be seen.
+function drawing(address: string, name: string): HTMLElement {
+  const image = h('img', { alt: name });
+  void fetch(address).then(r => r.text()).then(text => {
+    image.src = URL.createObjectURL(new Blob([text.replaceAll(/stroke-width="0\.[0-9]+"/g, 'stroke-width="0.8"')], { type: 'image/svg+xml' }));
+    image.onload = () => URL.revokeObjectURL(image.src);
+  });
+  return image;
+}
+
 export class Making {
   private dialog: HTMLDialogElement | null = null;
   private tab: Tab = 'Sheets';
@@ -70,7 +80,7 @@ export class Making {
     if (this.tab === 'Player') return [h('iframe', { src: address('preview.html'), title: t('Player'), sandbox: 'allow-scripts' })];
     if (this.tab === 'Files') return [...notes, h('ul', {}, ...files.map(f => h('li', {}, h('a', { href: address(f), download: f.replace(/.*\//, '') }, f))))];
     const sheets = files.filter(f => /^cut\/.*\.svg$/.test(f)).sort((a, b) => Number(b.includes('sheet')) - Number(a.includes('sheet')) || a.localeCompare(b));
-    return [h('div', { class: 'gallery' }, ...sheets.map(f => h('figure', {}, h('img', { src: address(f), alt: f, loading: 'lazy' }), h('figcaption', {}, f))))];
+    return [h('div', { class: 'gallery' }, ...sheets.map(f => h('figure', {}, drawing(address(f), f), h('figcaption', {}, f))))];
   }
 
   private async start(): Promise<void> {

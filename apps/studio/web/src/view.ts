@@ -139,11 +139,9 @@ export class View {
   private paintedFacing: Int32Array = new Int32Array(0);
 
   repaint(): void {
-    if (this.shown) {
+    if (this.bender && this.shown && this.capacity >= this.shown.header.elements && this.capacity > 0) {
       this.painted = JSON.stringify([this.shown.header.elements, this.overlay]);
       this.paintedFacing = this.shown.facing;
-    }
-    if (this.bender && this.shown && this.capacity >= this.shown.header.elements && this.capacity > 0) {
       const colour = this.mesh.geometry.getAttribute('color') as THREE.BufferAttribute;
       paint(this.shown, this.bender, this.overlay, this.tints, this.chosen, this.marked, colour.array as Float32Array);
       colour.needsUpdate = true;
@@ -158,6 +156,7 @@ export class View {
     if (!this.bender || (elements <= this.capacity && elements > 0 && this.mesh.geometry.hasAttribute('position'))) return;
     const count = Math.max(64, Math.ceil(elements * 1.3)), n = this.bender.points, rim = this.bender.rim;
     this.capacity = count;
+    this.painted = ''; // the new colours are all black
     const geometry = new THREE.BufferGeometry(), attribute = () => {
       const a = new THREE.BufferAttribute(new Float32Array(3 * n * count), 3);
       a.setUsage(THREE.DynamicDrawUsage);
@@ -247,8 +246,17 @@ export class View {
   }
 
   look(direction: [number, number, number]): void {
-    this.camera.position.copy(this.orbit.target).add(new THREE.Vector3(...direction).setLength(this.camera.position.distanceTo(this.orbit.target)));
+    const distance = this.camera.position.distanceTo(this.orbit.target);
+    this.camera.position.copy(this.orbit.target).addScaledVector(new THREE.Vector3(...direction).normalize(), distance);
     this.fit();
+  }
+
+  // The share of the view's width on the left that something else covers.
+  cover(share: number): void {
+    const { clientWidth: w, clientHeight: h } = this.canvas.parentElement!;
+    if (share > 0) this.camera.setViewOffset(w, h, -w * share / 2, 0, w, h);
+    else this.camera.clearViewOffset();
+    this.render();
   }
 
   settleGrid(): void {
