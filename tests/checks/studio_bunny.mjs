@@ -139,7 +139,7 @@ await page.waitForSelector('[data-do=start]');
 await click(page, '[data-do=start]');
 await page.waitForSelector('[data-do=download], dialog [role=alert]', { timeout: 240000 });
 expect(await page.isVisible('[data-do=download]'), 'the kit is made: ' + (await page.textContent('dialog .body')).slice(0, 300));
-await page.waitForFunction(() => [...document.querySelectorAll('.gallery img')].some(i => i.complete && i.naturalWidth > 0), null, { timeout: 30000 });
+await page.waitForFunction(() => document.querySelector('.gallery img') && [...document.querySelectorAll('.gallery img')].every(i => i.complete && i.naturalWidth > 0), null, { timeout: 30000 });
 await shot('sheets');
 await click(page, '[data-tab=Player]');
 const player = page.frameLocator('iframe[title=Player]');
