@@ -20,10 +20,24 @@ struct Run
     {
         int group = -1;
         int element = -1;
-        Face face;
+        int over = -1; //!< the element over which a part of this one is drawn once more
+        Painted painted;
     };
     std::vector<Item> items;
 };
+
+} // namespace
+
+namespace {
+
+void draw_painted(PdfCanvas& canvas, const Scene& scene, const Painted& painted, Paint paint)
+{
+    if (painted.over.is_valid()) {
+        draw_part(canvas, scene, painted, paint);
+    } else {
+        draw_element(canvas, scene, painted.face, paint);
+    }
+}
 
 } // namespace
 
@@ -103,23 +117,25 @@ void StepDrawer::State::start_run(int first)
         }
     }
     const Scene seen = scene(first);
-    const std::vector<Face> order = painter_order(seen, faces);
+    const std::vector<Painted> order = painter_sequence(seen, faces);
+    const auto element = [&](Face f) { return f.is_valid() ? element_of[f.idx()] : -1; };
+    const auto changes = [&](Face f) { return f.is_valid() && changing[element_of[f.idx()]]; };
     for (std::size_t i = 0; i < order.size();) {
         std::size_t j = i;
-        while (j < order.size() && !changing[element_of[order[j].idx()]]) {
+        while (j < order.size() && !changes(order[j].face) && !changes(order[j].over)) {
             ++j;
         }
         if (j == i || run.end - first < 2) {
-            run.items.push_back({-1, element_of[order[i].idx()], order[i]});
+            run.items.push_back({-1, element(order[i].face), element(order[i].over), order[i]});
             ++i;
             continue;
         }
         const int group = canvas.group(place(first).half.maxCoeff() + 4, [&] {
             for (std::size_t m = i; m < j; ++m) {
-                draw_element(canvas, seen, order[m], Paint::Built);
+                draw_painted(canvas, seen, order[m], Paint::Built);
             }
         });
-        run.items.push_back({group, -1, Face()});
+        run.items.push_back({group, -1, -1, Painted()});
         i = j;
     }
 }
@@ -164,10 +180,14 @@ void StepDrawer::State::draw_picture(int k)
         for (const Run::Item& item : run.items) {
             if (item.group >= 0) {
                 canvas.place(item.group, Vec2::Zero());
-            } else if (item.element == step(k).element) {
-                draw_element(canvas, seen, item.face, kind == StepKind::Remove ? Paint::Removed : Paint::Next);
-            } else if (present[item.element]) {
-                draw_element(canvas, seen, item.face, Paint::Built);
+                continue;
+            }
+            const int own_element = step(k).element;
+            const bool hider = item.over < 0 || item.over == own_element || present[item.over];
+            if (item.element == own_element && hider) {
+                draw_painted(canvas, seen, item.painted, kind == StepKind::Remove ? Paint::Removed : Paint::Next);
+            } else if (hider && present[item.element]) {
+                draw_painted(canvas, seen, item.painted, Paint::Built);
             }
         }
         draw_joined_sides(canvas, seen, own, sides, built(k));

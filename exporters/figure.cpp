@@ -213,6 +213,21 @@ void draw_element(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint)
     }
 }
 
+void draw_part(PdfCanvas& canvas, const Scene& scene, const Painted& painted, Paint paint)
+{
+    const Polygon p = outline_of(scene, painted.face);
+    const unsigned tint = element_tint(scene, painted.face, paint);
+    for (const Polygon& part : painted.part) {
+        canvas.clipped(part, [&] {
+            canvas.fill({p[0], p[1], p[2]}, tint);
+            canvas.fill({p[0], p[2], p[3]}, tint);
+            canvas.stroke({p[0], p[2]}, {0.4, tint, 0});
+            canvas.stroke({p[0], p[1], p[2], p[3], p[0]}, edge_line(paint));
+            draw_flip_dots(canvas, scene, painted.face, paint);
+        });
+    }
+}
+
 void draw_joined_sides(PdfCanvas& canvas, const Scene& scene, Face f, const std::vector<int>& sides,
                        const std::vector<Face>& built)
 {

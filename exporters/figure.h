@@ -35,6 +35,18 @@ Polygon outline_of(const Scene& scene, Face f);
 //! of these facts, with the mean depth as tie-break. Any part of the result, in the same sequence, is right as well.
 std::vector<Face> painter_order(const Scene& scene, const std::vector<Face>& faces);
 
+//! \brief A face in a painting; or a face whose visible part over another is painted once more.
+struct Painted
+{
+    Face face;
+    Face over;                 //!< valid: only the part that lies in front of this face, drawn before it came
+    std::vector<Polygon> part; //!< that part, convex pieces on the paper; empty: the whole face
+};
+
+//! \brief painter_order, and where no order of whole faces is right (they cut each other, or hide each other in a
+//! circle) the parts that come to light again, each right after the face that hid it.
+std::vector<Painted> painter_sequence(const Scene& scene, const std::vector<Face>& faces);
+
 //! \brief How much of an element, 0..1, is in front of all of \p others, found by sampling.
 double seen_part(const Scene& scene, Face f, const std::vector<Face>& others);
 
@@ -49,6 +61,9 @@ enum class Paint
 
 //! \brief One element: tinted by its slope and by which face is seen, dotted when it is flipped.
 void draw_element(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint);
+
+//! \brief Parts of an element once more; see painter_sequence.
+void draw_part(PdfCanvas& canvas, const Scene& scene, const Painted& painted, Paint paint);
 
 //! \brief The fill of an element: by its slope, or its side when seen from inside, or what is done with it.
 unsigned element_tint(const Scene& scene, Face f, Paint paint);

@@ -15,6 +15,9 @@ using Layers = std::vector<std::pair<double, int>>;
 //! Closer layers touch, as the folded halves of elements round a vertex of valence two do, mm.
 constexpr double touching = 1e-4;
 
+//! Pixels of a wrongly hidden part that is worth drawing again.
+constexpr int noticeable = 6;
+
 //! All faces over a grid of pixels, every layer kept.
 class LayeredRaster
 {
@@ -183,14 +186,8 @@ std::vector<int> sorted(const Votes& in_front, const std::vector<double>& depths
     return order;
 }
 
-} // namespace
-
-std::vector<Face> painter_order(const Scene& scene, const std::vector<Face>& faces)
+std::vector<int> ordered(const Scene& scene, const std::vector<Face>& faces, const LayeredRaster& raster)
 {
-    if (faces.empty()) {
-        return {};
-    }
-    const LayeredRaster raster(scene, faces);
     std::vector<double> depths;
     std::vector<char> outside;
     for (const Face f : faces) {
@@ -199,9 +196,144 @@ std::vector<Face> painter_order(const Scene& scene, const std::vector<Face>& fac
     }
     Votes votes = settle(count_votes(raster, faces.size()));
     vote_for_touching(raster, outside, votes);
+    return sorted(votes, depths);
+}
+
+//! For each face, the faces that it hides wrongly when drawn in its place, and in how many pixels.
+Votes wrongly_hidden(const LayeredRaster& raster, const std::vector<int>& place)
+{
+    Votes hidden(place.size());
+    for (const Layers& layers : raster.pixels()) {
+        const auto painted = std::max_element(layers.begin(), layers.end(), [&](const auto& a, const auto& b) {
+            return place[a.second] < place[b.second];
+        });
+        if (painted != layers.end() && painted->first < layers.back().first - touching) {
+            ++hidden[painted->second][layers.back().second];
+        }
+    }
+    return hidden;
+}
+
+//! The part of a convex polygon where the linear function of its corners is not negative.
+template <class Height>
+Polygon cut(const Polygon& polygon, const Height& height)
+{
+    Polygon result;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec2& a = polygon[i];
+        const Vec2& b = polygon[(i + 1) % polygon.size()];
+        const double ha = height(a);
+        const double hb = height(b);
+        if (ha >= 0) {
+            result.push_back(a);
+        }
+        if ((ha < 0) != (hb < 0)) {
+            result.push_back(a + (b - a) * (ha / (ha - hb)));
+        }
+    }
+    return result;
+}
+
+//! Half of a face on the paper: three corners with their depths.
+using Half = std::array<Vec3, 3>;
+
+std::array<Half, 2> halves(const Scene& scene, Face f)
+{
+    const Quad q = quad(*scene.surface, f);
+    const auto corner = [&](int k) {
+        const Vec3& x = scene.surface->point(Vertex(q[k]));
+        const Vec2 at = project(scene.camera, x);
+        return Vec3(at.x(), at.y(), depth(scene.camera, x));
+    };
+    return {Half{corner(0), corner(1), corner(2)}, Half{corner(0), corner(2), corner(3)}};
+}
+
+double turn(const Vec2& a, const Vec2& b, const Vec2& c)
+{
+    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+double depth_in(const Half& h, const Vec2& p)
+{
+    const Vec2 a = h[0].head<2>();
+    const Vec2 b = h[1].head<2>();
+    const Vec2 c = h[2].head<2>();
+    const double area = turn(a, b, c);
+    return (turn(p, b, c) * h[0].z() + turn(a, p, c) * h[1].z() + turn(a, b, p) * h[2].z()) / area;
+}
+
+//! Where \p near covers \p far on the paper and lies in front of it.
+Polygon part_in_front(const Half& near, const Half& far)
+{
+    Polygon part = {near[0].head<2>(), near[1].head<2>(), near[2].head<2>()};
+    const double sense = turn(far[0].head<2>(), far[1].head<2>(), far[2].head<2>());
+    if (std::abs(sense) < 1e-6 || std::abs(turn(part[0], part[1], part[2])) < 1e-6) {
+        return {};
+    }
+    for (int k = 0; k < 3; ++k) {
+        const Vec2 a = far[k].head<2>();
+        const Vec2 b = far[(k + 1) % 3].head<2>();
+        part = cut(part, [&](const Vec2& p) { return sense > 0 ? turn(a, b, p) : -turn(a, b, p); });
+    }
+    return cut(part, [&](const Vec2& p) { return depth_in(near, p) - depth_in(far, p); });
+}
+
+Painted once_more(const Scene& scene, Face near, Face far)
+{
+    constexpr double smallest = 0.05; // square points
+    Painted result{near, far, {}};
+    for (const Half& n : halves(scene, near)) {
+        for (const Half& f : halves(scene, far)) {
+            Polygon part = part_in_front(n, f);
+            if (part.size() > 2 && polygon_area(part) > smallest) {
+                result.part.push_back(std::move(part));
+            }
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+std::vector<Face> painter_order(const Scene& scene, const std::vector<Face>& faces)
+{
     std::vector<Face> result;
-    for (const int i : sorted(votes, depths)) {
-        result.push_back(faces[i]);
+    if (!faces.empty()) {
+        for (const int i : ordered(scene, faces, LayeredRaster(scene, faces))) {
+            result.push_back(faces[i]);
+        }
+    }
+    return result;
+}
+
+std::vector<Painted> painter_sequence(const Scene& scene, const std::vector<Face>& faces)
+{
+    if (faces.empty()) {
+        return {};
+    }
+    const LayeredRaster raster(scene, faces);
+    const std::vector<int> order = ordered(scene, faces, raster);
+    std::vector<int> place(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        place[order[i]] = static_cast<int>(i);
+    }
+    const auto hidden = wrongly_hidden(raster, place);
+    std::vector<Painted> result;
+    for (const int i : order) {
+        result.push_back({faces[i], Face(), {}});
+        std::vector<int> again;
+        for (const auto& [near, pixels] : hidden[i]) {
+            if (pixels >= noticeable) {
+                again.push_back(near);
+            }
+        }
+        std::sort(again.begin(), again.end(), [&](int a, int b) { return place[a] < place[b]; });
+        for (const int near : again) {
+            Painted part = once_more(scene, faces[near], faces[i]);
+            if (!part.part.empty()) {
+                result.push_back(std::move(part));
+            }
+        }
     }
     return result;
 }

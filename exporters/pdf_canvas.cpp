@@ -6,6 +6,7 @@
 #include <cairo/cairo-pdf.h>
 
 #include "exporters/code_points.h"
+#include "exporters/pdf_grid.h"
 
 namespace rhombloom {
 
@@ -55,34 +56,6 @@ cairo_font_face_t* load_font(const std::string& path, FT_Face& face)
     cairo_font_face_set_user_data(font, &key, file.release(),
                                   [](void* pointer) { delete static_cast<FontFile*>(pointer); });
     return font;
-}
-
-} // namespace
-
-namespace {
-
-Vec2 rounded(const Vec2& p, double unit)
-{
-    return (p / unit).array().round() * unit;
-}
-
-//! To 1/16 point, 0.02 mm: such numbers pack well. A corner that would vanish that way, because it falls on a
-//! neighbour or in line with both, keeps the finer place that cairo can write.
-Polygon on_grid(const Polygon& points, bool closed)
-{
-    Polygon result;
-    for (const Vec2& p : points) {
-        result.push_back(rounded(p, 1.0 / 16));
-    }
-    const std::size_t n = points.size();
-    for (std::size_t i = 0; closed && i < n; ++i) {
-        const Vec2 in = result[i] - result[(i + n - 1) % n];
-        const Vec2 out = result[(i + 1) % n] - result[i];
-        if (in.x() * out.y() == in.y() * out.x()) {
-            result[i] = rounded(points[i], 1.0 / 256);
-        }
-    }
-    return result;
 }
 
 } // namespace
