@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace rhombloom {
 
@@ -27,8 +26,15 @@ int closest_shift(const Interface& fixed, const Interface& moving)
     return shift;
 }
 
-std::optional<Correspondence> compatible(const Interface& fixed, const Interface& moving, int shift,
-                                         const DefectRange& limits)
+} // namespace
+
+int partner(const Correspondence& match, int i, int size)
+{
+    return (match.shift - i + 2 * size) % size;
+}
+
+std::optional<Correspondence> correspondence(const Interface& fixed, const Interface& moving, int shift,
+                                             const DefectRange& limits)
 {
     const int n = fixed.size();
     Correspondence match{shift, std::min(fixed.zipped_defect, moving.zipped_defect), -1e300};
@@ -44,13 +50,6 @@ std::optional<Correspondence> compatible(const Interface& fixed, const Interface
     return match;
 }
 
-} // namespace
-
-int partner(const Correspondence& match, int i, int size)
-{
-    return (match.shift - i + 2 * size) % size;
-}
-
 std::vector<Correspondence> correspondences(const Interface& fixed, const Interface& moving, const DefectRange& limits)
 {
     std::vector<Correspondence> result;
@@ -60,7 +59,7 @@ std::vector<Correspondence> correspondences(const Interface& fixed, const Interf
     }
     const int first = closest_shift(fixed, moving);
     for (int k = 0; k < n; ++k) {
-        if (const auto match = compatible(fixed, moving, (first + k) % n, limits)) {
+        if (const auto match = correspondence(fixed, moving, (first + k) % n, limits)) {
             result.push_back(*match);
         }
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Geometry>
 
 #include "core/design/interface.h"
@@ -19,7 +21,12 @@ struct Correspondence
 //! \brief The vertex of the moving loop that meets vertex \p i of the fixed one.
 int partner(const Correspondence& match, int i, int size);
 
-//! \brief Every compatible correspondence: each merged vertex has a permissible defect. The one seeded by the closest
+//! \brief The correspondence of that shift if it is compatible: each merged vertex has a permissible defect.
+//! \pre the loops have the same size.
+std::optional<Correspondence> correspondence(const Interface& fixed, const Interface& moving, int shift,
+                                             const DefectRange& limits);
+
+//! \brief Every compatible correspondence. The one seeded by the closest
 //! pair of vertices comes first, the others in the order of the shift.
 //! \details Sides never obstruct: the sides of two loops alternate, so all match or all differ, and in the second case
 //! one part is swapped (see apply_graft). Empty when the sizes differ or no shift is compatible.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "core/design/pose.h"
@@ -265,6 +266,19 @@ void rank(std::vector<Choice>& choices, const Surface& target, const Element& el
     std::stable_sort(choices.begin(), choices.end(), [&](const Choice& a, const Choice& b) { return key(a) < key(b); });
 }
 
+//! A few of each pair of loops, and none that a turn of the brush makes the same as one before it.
+void keep_different(std::vector<Choice>& choices)
+{
+    std::map<std::pair<const LayerCut*, const LayerCut*>, int> taken;
+    std::set<std::tuple<const LayerCut*, const LayerCut*, long, long, long, long>> seen;
+    std::erase_if(choices, [&](const Choice& c) {
+        const bool fresh = seen.emplace(c.target, c.brush, micro(c.match.min_defect), micro(c.match.max_defect),
+                                        std::lround(c.tip_distance), std::lround(c.misfit))
+                               .second;
+        return !fresh || ++taken[{c.target, c.brush}] > per_pair;
+    });
+}
+
 Surface fresh_brush(const BaseShape& brush, const ExtrudeRequest& request)
 {
     Surface surface = brush.surface;
@@ -329,11 +343,9 @@ Expected<std::vector<ExtrudeCandidate>> extrude_candidates(const Surface& target
             add_choices(*pairs[i].first, *pairs[i].second, limits, group);
         }
         rank(group, target, element, brush, request);
-        std::map<std::pair<const LayerCut*, const LayerCut*>, int> taken;
+        keep_different(group);
         for (std::size_t k = 0; k < group.size() && static_cast<int>(result.size()) < count; ++k) {
-            if (taken[{group[k].target, group[k].brush}]++ < per_pair) {
-                result.push_back(candidate(group[k], target, added));
-            }
+            result.push_back(candidate(group[k], target, added));
         }
     }
     if (result.empty()) {

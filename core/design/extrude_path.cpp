@@ -1,8 +1,10 @@
 // The drag: which candidate is taken, and how often the brush is repeated (Sec. 4.3).
 #include <algorithm>
 #include <optional>
+#include <tuple>
 
 #include "core/design/extrude.h"
+#include "core/design/overlap.h"
 #include "core/design/pose.h"
 #include "core/model/validity.h"
 
@@ -12,8 +14,10 @@ namespace {
 
 constexpr double follows = 0.8660254037844386; // cosine of 30 degrees
 constexpr int max_periods = 200;
-constexpr int trial_iterations = 2000; // a candidate that needs more is passed over
-constexpr int embedded_choices = 8;   // candidates that are embedded before the best of them is taken
+constexpr int trial_iterations = 1000;         // a candidate that needs more is passed over
+constexpr int most_trials = 3;                 // candidates that are embedded until one is at least usable;
+constexpr std::size_t embedded_elements = 500; // more of them, for a good one, as long as they have no more elements
+constexpr double usable_stretch = 0.05;
 
 int next_serial(const Surface& surface)
 {
@@ -30,12 +34,18 @@ struct Attempt
     Surface surface;
     EmbedReport embedding;
     std::vector<Vertex> tips;
-    double distance = 0; //!< of the tip from the end of the drag
-    double cosine = 1;   //!< of the angle between the tip's way and the drag
+    double distance = 0;  //!< of the tip from the end of the drag
+    double cosine = 1;    //!< of the angle between the tip's way and the drag
+    bool crosses = false; //!< two elements run through each other
     int next_serial = 0;
     ExtrudeCandidate candidate;
 
-    bool good() const { return settled(embedding) && cosine >= follows; }
+    bool stands() const { return settled(embedding) && !crosses; }
+    bool usable() const
+    {
+        return embedding.converged && embedding.max_stretch < usable_stretch && !crosses && cosine >= follows;
+    }
+    bool good() const { return stands() && cosine >= follows; }
 };
 
 Expected<Attempt> attempt(const Surface& target, const Element& element, const ExtrudeRequest& request,
@@ -61,20 +71,36 @@ Expected<Attempt> attempt(const Surface& target, const Element& element, const E
     const Vec3 way = middle(result.surface, result.tips) - target.point(request.apex);
     result.distance = (way - request.drag).norm();
     result.cosine = way.dot(request.drag) / std::max(1e-12, way.norm() * request.drag.norm());
+    result.crosses = crosses_itself(result.surface);
     result.candidate = candidate;
     return result;
 }
 
-//! Settled before not settled, then the one whose tip comes closest.
+//! What stands before what does not; then the one whose tip comes closest or, where nothing stands, the least stretched
+//! of those that follow the drag.
 bool better(const Attempt& a, const Attempt& b)
 {
-    return std::pair(!settled(a.embedding), a.distance) < std::pair(!settled(b.embedding), b.distance);
+    const auto key = [](const Attempt& x) {
+        const bool calm = settled(x.embedding);
+        return std::tuple(!x.embedding.converged, x.crosses, !calm, !calm && x.cosine < follows,
+                          calm ? x.distance : x.embedding.max_stretch);
+    };
+    return key(a) < key(b);
 }
 
 tl::unexpected<Error> nothing_fits(const BaseShape& brush, const ExtrudeRequest& request, const std::string& reason)
 {
     return refuse("no way to join " + brush.name + " at vertex " + std::to_string(request.apex.idx()) +
                   " can be built: " + reason);
+}
+
+//! \p found again with all repairs of the embedding, when that helps.
+Attempt repaired(Attempt found, const Surface& target, const Element& element, const ExtrudeRequest& request,
+                 EmbedOptions embedding)
+{
+    embedding.start = Start::Unknown;
+    auto again = attempt(target, element, request, found.candidate, embedding);
+    return again && better(*again, found) ? std::move(*again) : std::move(found);
 }
 
 //! The first good one, else the best of the first few.
@@ -87,7 +113,8 @@ Expected<Attempt> best_attempt(const Surface& target, const Element& element, co
     }
     std::optional<Attempt> best;
     Error last;
-    int embedded = 0;
+    int trials = 0;
+    std::size_t elements = 0;
     for (const ExtrudeCandidate& candidate : *candidates) {
         auto tried = attempt(target, element, request, candidate, embedding);
         if (!tried) {
@@ -97,14 +124,19 @@ Expected<Attempt> best_attempt(const Surface& target, const Element& element, co
         if (tried->good()) {
             return tried;
         }
+        elements += tried->surface.n_faces();
         if (!best || better(*tried, *best)) {
             best = std::move(*tried);
         }
-        if (++embedded == embedded_choices) {
+        if (elements > embedded_elements && (best->usable() || ++trials >= most_trials)) {
             break;
         }
     }
-    return best ? Expected<Attempt>(std::move(*best)) : nothing_fits(brush, request, last.message);
+    if (!best) {
+        return nothing_fits(brush, request, last.message);
+    }
+    return best->embedding.converged ? std::move(*best)
+                                     : repaired(std::move(*best), target, element, request, embedding);
 }
 
 //! The one of the wanted rank among those that settle.
@@ -127,11 +159,18 @@ Expected<Attempt> ranked_attempt(const Surface& target, const Element& element, 
                             std::to_string(found) + " settle");
 }
 
+//! Another period gains about as much as the last one: it must not overshoot by more than is left, nor go back.
+bool worth_a_period(const Vec3& left, const Vec3& drag, double gained)
+{
+    return left.dot(drag) > 0 && left.norm() > 0.4 * gained;
+}
+
 Expected<Attempt> period(const Surface& target, const Element& element, const BaseShape& brush,
                          const ExtrudeRequest& request, const EmbedOptions& embedding)
 {
     EmbedOptions limited = embedding;
     limited.max_iterations = std::min(embedding.max_iterations, trial_iterations);
+    limited.start = Start::Edited;
     return request.candidate > 0 ? ranked_attempt(target, element, brush, request, limited)
                                  : best_attempt(target, element, brush, request, limited);
 }
@@ -149,6 +188,7 @@ Expected<Extrusion> extrude(const Surface& target, const Element& element, const
         return refuse("the drag is shorter than a thousandth of an element: say how far and where to extrude");
     }
     const Vec3 start = target.point(request.apex);
+    Vec3 before = start;
     auto reached = period(target, element, brush, request, embedding);
     if (!reached) {
         return tl::make_unexpected(reached.error());
@@ -162,9 +202,11 @@ Expected<Extrusion> extrude(const Surface& target, const Element& element, const
         next.apex = reached->tips.front();
         next.first_serial = reached->next_serial;
         next.drag = start + request.drag - middle(reached->surface, reached->tips);
-        if (next.drag.norm() < 0.25 * element.la || reached->tips.size() > 1) {
+        const double gained = (middle(reached->surface, reached->tips) - before).norm();
+        if (!worth_a_period(next.drag, request.drag, gained) || reached->tips.size() > 1) {
             break;
         }
+        before = middle(reached->surface, reached->tips);
         auto further = period(reached->surface, element, brush, next, embedding);
         if (!further || further->distance >= reached->distance || !settled(further->embedding)) {
             break;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <unordered_map>
 
@@ -116,10 +117,17 @@ Interface zip(const Interface& loop, int i)
 }
 
 //! Largest resulting defect first; among equals, the loop whose fullest vertex has most room left.
-std::pair<long, long> zip_order(const Interface& loop)
+std::pair<long, long> zip_order(const Interface& loop, int i)
 {
-    const double fullest = *std::max_element(loop.angles.begin(), loop.angles.end());
-    return {-std::lround(loop.zipped_defect * 1e6), std::lround(fullest * 1e6)};
+    const int n = loop.size();
+    const int a = (i + n - 1) % n;
+    const int b = (i + 1) % n;
+    double fullest = loop.angles[a] + loop.angles[b];
+    for (int j = 0; j < n; ++j) {
+        fullest = j == i ? fullest : std::max(fullest, loop.angles[j]);
+    }
+    const double defect = std::min(loop.zipped_defect, two_pi - loop.angles[i]);
+    return {-std::lround(defect * 1e6), std::lround(fullest * 1e6)};
 }
 
 bool can_zip(const Interface& loop, int i, const DefectRange& limits)
@@ -240,21 +248,27 @@ Cut openings(const Surface& surface, const Element& element)
 
 std::vector<Interface> shortened(const Interface& loop, int size, const DefectRange& limits, int count)
 {
+    struct Zip
+    {
+        std::pair<long, long> order;
+        int variant = 0;
+        int valley = 0;
+    };
     std::vector<Interface> variants = {loop};
     while (!variants.empty() && variants.front().size() > size) {
-        std::vector<Interface> next;
-        for (const Interface& variant : variants) {
-            for (int i = 0; i < variant.size(); ++i) {
-                if (can_zip(variant, i, limits)) {
-                    next.push_back(zip(variant, i));
+        std::vector<Zip> zips;
+        for (int k = 0; k < static_cast<int>(variants.size()); ++k) {
+            for (int i = 0; i < variants[k].size(); ++i) {
+                if (can_zip(variants[k], i, limits)) {
+                    zips.push_back({zip_order(variants[k], i), k, i});
                 }
             }
         }
-        std::stable_sort(next.begin(), next.end(),
-                         [](const Interface& a, const Interface& b) { return zip_order(a) < zip_order(b); });
-        if (static_cast<int>(next.size()) > count) {
-            next.resize(count);
-        }
+        std::stable_sort(zips.begin(), zips.end(), [](const Zip& a, const Zip& b) { return a.order < b.order; });
+        zips.resize(std::min<std::size_t>(zips.size(), count));
+        std::vector<Interface> next;
+        std::transform(zips.begin(), zips.end(), std::back_inserter(next),
+                       [&](const Zip& z) { return zip(variants[z.variant], z.valley); });
         variants = std::move(next);
     }
     return variants;

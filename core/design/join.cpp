@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "core/model/tagging.h"
 
@@ -282,6 +283,43 @@ Graft graft(const CutPart& fixed, const CutPart& moving, const std::vector<Seam>
         result.tips.push_back(number[v.idx()]);
     }
     return result;
+}
+
+bool edges_fit(const Surface& surface, const Graft& change)
+{
+    Representatives same(static_cast<int>(surface.n_vertices() + change.positions.size()));
+    std::set<int> seam;
+    for (const auto& [a, b] : change.zipped) {
+        same.join(a, b);
+        seam.insert({a, b});
+    }
+    for (const auto& [v, p] : change.moved) {
+        seam.insert(v);
+    }
+    std::set<int> done(change.removed.begin(), change.removed.end()); // removed, or looked at already
+    std::vector<Quad> quads = change.quads;
+    for (const int v : seam) {
+        if (v >= static_cast<int>(surface.n_vertices())) {
+            continue;
+        }
+        for (const Face f : surface.vf_range(Vertex(v))) {
+            if (done.insert(f.idx()).second) {
+                quads.push_back(quad(surface, f));
+            }
+        }
+    }
+    std::vector<std::pair<int, int>> edges;
+    for (Quad& q : quads) {
+        std::transform(q.begin(), q.end(), q.begin(), [&](int v) { return same.find(v); });
+        if (q[0] == q[2] || q[1] == q[3]) {
+            return false;
+        }
+        for (int k = 0; k < 4; ++k) {
+            edges.emplace_back(q[k], q[(k + 1) % 4]);
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    return std::adjacent_find(edges.begin(), edges.end()) == edges.end();
 }
 
 Expected<Grafted> apply_grafts(const Surface& surface, const std::vector<Graft>& grafts, int& next_serial)

@@ -56,6 +56,10 @@ struct Grafted
 //! Fresh serials start at \p next_serial, which is advanced.
 Expected<Grafted> apply_grafts(const Surface& surface, const std::vector<Graft>& grafts, int& next_serial);
 
+//! \brief Would every edge that \p change touches have at most two elements, and every element four corners?
+//! \details What a single seam between two parts leaves to be seen of apply_grafts; costs what the change costs.
+bool edges_fit(const Surface& surface, const Graft& change);
+
 //! \brief Is corner \p k (0..3) of element \p f the acute kind, whatever the tags are called?
 bool is_acute(const Surface& surface, Face f, int k);
 

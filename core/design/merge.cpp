@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
-#include "core/design/merge_interfaces.h"
+#include "core/design/merge_seams.h"
 #include "core/design/pose.h"
 #include "core/model/validity.h"
 
@@ -14,229 +15,18 @@ namespace rhombloom {
 
 namespace {
 
-constexpr int interfaces_tried = 160; // per surface
-constexpr int subsets_tried = 6000;   // per surface
-constexpr int pairs_tried = 8000;
-constexpr int zip_variants = 6;
-constexpr int most_zips = 4;
-constexpr int choices_built = 40; // best-scored choices that are built and validated until enough are valid
+constexpr int interfaces_tried = 160;          // per surface
+constexpr int subsets_tried = 4000;            // per surface
+constexpr int choices_built = 40;              // best-scored choices that are made into changes until enough are valid
+constexpr int most_candidates = 8;             // asked for beyond the wanted one
+constexpr int most_trials = 8; // candidates that are embedded until one is at least usable;
+constexpr std::size_t embedded_elements = 500; // more of them, for a good one, as long as they have no more elements
+constexpr double usable_stretch = 0.05;
+constexpr double far_off = 0.4;       // la rms from the union of the inputs: the next candidate is tried
+constexpr double stretch_weight = 10; // la of distance that are as bad as a stretch of 1
+constexpr int trial_iterations = 1000;
 
-constexpr double off_union_weight = 0.25; // per la of summed depth
-constexpr double zip_weight = 0.15;       // per mountain made one
-constexpr double margin_weight = 1.0;     // at the limit of the permissible defects, fading over comfortable_margin
-constexpr double asymmetry_weight = 2.0;  // per la
-constexpr double comfortable_margin = radians(40);
-
-//! One loop of each surface and how they match.
-struct SeamChoice
-{
-    int loop_a = 0;
-    int loop_b = 0;
-    Interface a;
-    Interface b;
-    Correspondence match;
-    double squares = 0; //!< sum over the merged vertices of their squared distance, mm2
-};
-
-struct Choice
-{
-    const MergeInterface* a = nullptr;
-    const MergeInterface* b = nullptr;
-    std::vector<SeamChoice> seams;
-    double score = 0;
-    double distance = 0;
-    double asymmetry = 0;
-};
-
-double squares(const Interface& a, const Interface& b, const Correspondence& match)
-{
-    double sum = 0;
-    for (int i = 0; i < a.size(); ++i) {
-        sum += (a.points[i] - b.points[partner(match, i, a.size())]).squaredNorm();
-    }
-    return sum;
-}
-
-//! The compatible correspondence whose vertices are closest as posed; every way to zip the larger loop is tried.
-std::optional<SeamChoice> best_seam(const Interface& a, const Interface& b, const DefectRange& limits, int variants)
-{
-    std::optional<SeamChoice> best;
-    const int size = std::min(a.size(), b.size());
-    if (std::abs(a.size() - b.size()) > 2 * most_zips || size < 4) {
-        return best;
-    }
-    for (const Interface& fixed : shortened(a, size, limits, variants)) {
-        for (const Interface& moving : shortened(b, size, limits, variants)) {
-            for (const Correspondence& match : correspondences(fixed, moving, limits)) {
-                const double sum = squares(fixed, moving, match);
-                if (!best || sum < best->squares) {
-                    best = SeamChoice{0, 0, fixed, moving, match, sum};
-                }
-            }
-        }
-    }
-    return best;
-}
-
-Vec3 loop_middle(const Interface& loop)
-{
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& p : loop.points) {
-        sum += p;
-    }
-    return sum / loop.size();
-}
-
-//! Match each loop of a with the nearest loop of b that is still free.
-std::optional<std::vector<SeamChoice>> match_loops(const Cut& a, const Cut& b, const DefectRange& limits, int variants)
-{
-    if (a.loops.size() != b.loops.size()) {
-        return std::nullopt;
-    }
-    std::vector<char> taken(b.loops.size(), 0);
-    std::vector<SeamChoice> result;
-    for (std::size_t i = 0; i < a.loops.size(); ++i) {
-        int nearest = -1;
-        for (int j = 0; j < static_cast<int>(b.loops.size()); ++j) {
-            const auto way = [&](int k) { return (loop_middle(a.loops[i]) - loop_middle(b.loops[k])).norm(); };
-            if (!taken[j] && (nearest < 0 || way(j) < way(nearest))) {
-                nearest = j;
-            }
-        }
-        auto seam = best_seam(a.loops[i], b.loops[nearest], limits, variants);
-        if (!seam) {
-            return std::nullopt;
-        }
-        taken[nearest] = 1;
-        seam->loop_a = static_cast<int>(i);
-        seam->loop_b = nearest;
-        result.push_back(std::move(*seam));
-    }
-    return result;
-}
-
-//! How far the merged vertices of a seam that meets the plane or axis are from being their own images.
-double asymmetry(const std::vector<SeamChoice>& seams, const Symmetry& symmetry, double la)
-{
-    std::vector<Vec3> points;
-    for (const SeamChoice& seam : seams) {
-        for (int i = 0; i < seam.a.size(); ++i) {
-            points.push_back((seam.a.points[i] + seam.b.points[partner(seam.match, i, seam.a.size())]) / 2);
-        }
-    }
-    Vec3 mean = Vec3::Zero();
-    for (const Vec3& p : points) {
-        mean += p / static_cast<double>(points.size());
-    }
-    double worst = 0;
-    for (const SymmetryImage& image : images(symmetry)) {
-        if ((image.map * mean - mean).norm() > 0.6 * la) {
-            continue;
-        }
-        double sum = 0;
-        for (const Vec3& p : points) {
-            double nearest = 1e300;
-            for (const Vec3& q : points) {
-                nearest = std::min(nearest, (image.map * p - q).squaredNorm());
-            }
-            sum += nearest;
-        }
-        worst = std::max(worst, std::sqrt(sum / static_cast<double>(points.size())));
-    }
-    return worst;
-}
-
-double min_defect(const Choice& choice)
-{
-    double least = 1e300;
-    for (const SeamChoice& seam : choice.seams) {
-        least = std::min(least, seam.match.min_defect);
-    }
-    return least;
-}
-
-double max_defect(const Choice& choice)
-{
-    double most = -1e300;
-    for (const SeamChoice& seam : choice.seams) {
-        most = std::max(most, seam.match.max_defect);
-    }
-    return most;
-}
-
-int zips(const Choice& choice)
-{
-    std::size_t count = 0;
-    for (const SeamChoice& seam : choice.seams) {
-        count += seam.a.zipped.size() + seam.b.zipped.size();
-    }
-    return static_cast<int>(count);
-}
-
-int loop_size(const Choice& choice)
-{
-    int size = 0;
-    for (const SeamChoice& seam : choice.seams) {
-        size += seam.a.size();
-    }
-    return size;
-}
-
-double off_union(const MergeInterface& a, const MergeInterface& b)
-{
-    return a.off_union + b.off_union;
-}
-
-void rate(Choice& choice, const Element& element, const Symmetry& symmetry)
-{
-    double sum = 0;
-    for (const SeamChoice& seam : choice.seams) {
-        sum += seam.squares;
-    }
-    choice.distance = std::sqrt(sum / loop_size(choice));
-    choice.asymmetry = asymmetry(choice.seams, symmetry, element.la);
-    const DefectRange limits = permissible_defect(element);
-    const double margin = std::min(min_defect(choice) - limits.min, limits.max - max_defect(choice));
-    choice.score = choice.distance / element.la + off_union_weight * off_union(*choice.a, *choice.b) / element.la +
-                   zip_weight * zips(choice) + margin_weight * std::max(0.0, 1 - margin / comfortable_margin) +
-                   asymmetry_weight * choice.asymmetry / element.la;
-}
-
-using Interfaces = std::vector<MergeInterface>;
-
-std::vector<Choice> compatible_choices(const Interfaces& a, const Interfaces& b, const Element& element,
-                                       const MergeOptions& options, int variants)
-{
-    std::vector<std::pair<const MergeInterface*, const MergeInterface*>> pairs;
-    for (const MergeInterface& first : a) {
-        for (const MergeInterface& second : b) {
-            pairs.emplace_back(&first, &second);
-        }
-    }
-    std::stable_sort(pairs.begin(), pairs.end(), [](const auto& x, const auto& y) {
-        return off_union(*x.first, *x.second) < off_union(*y.first, *y.second);
-    });
-    pairs.resize(std::min<std::size_t>(pairs.size(), pairs_tried));
-    std::vector<Choice> result;
-    std::vector<double> best; // scores so far, ascending
-    for (const auto& [first, second] : pairs) {
-        const double bound = off_union_weight * off_union(*first, *second) / element.la;
-        if (static_cast<int>(best.size()) > choices_built && bound > best[choices_built]) {
-            break; // the pairs that follow can only be worse
-        }
-        if (auto seams = match_loops(first->cut, second->cut, permissible_defect(element), variants)) {
-            result.push_back({first, second, std::move(*seams)});
-            rate(result.back(), element, options.symmetry);
-            best.insert(std::upper_bound(best.begin(), best.end(), result.back().score), result.back().score);
-        }
-    }
-    std::stable_sort(result.begin(), result.end(), [](const Choice& x, const Choice& y) {
-        return std::lround(x.score * 1e6) < std::lround(y.score * 1e6);
-    });
-    return result;
-}
-
-MergeCandidate candidate(const Choice& choice, const Surface& a, const Surface& b)
+MergeCandidate candidate(const MergeChoice& choice, const Surface& a, const Surface& b)
 {
     Cut cut_a = choice.a->cut;
     Cut cut_b = choice.b->cut;
@@ -258,31 +48,37 @@ MergeCandidate candidate(const Choice& choice, const Surface& a, const Surface& 
     MergeCandidate result;
     result.removed_a = static_cast<int>(cut_a.removed.size());
     result.removed_b = static_cast<int>(cut_b.removed.size());
-    result.loop_size = loop_size(choice);
-    result.zips = zips(choice);
+    result.loop_size = choice.loop_size;
+    result.zips = choice.zips;
     result.distance = choice.distance;
-    result.off_union = off_union(*choice.a, *choice.b);
-    result.min_defect = min_defect(choice);
-    result.max_defect = max_defect(choice);
+    result.off_union = choice.off_union;
+    result.min_defect = choice.min_defect;
+    result.max_defect = choice.max_defect;
     result.asymmetry = choice.asymmetry;
     result.score = choice.score;
     result.change = graft({a, cut_a}, {b, cut_b}, seams, pose);
     return result;
 }
 
-//! Build the choices in order and keep those that are valid surfaces.
-std::vector<MergeCandidate> valid_candidates(const std::vector<Choice>& choices, const Surface& a, const Surface& b,
-                                             const Element& element, int count)
+//! One seam that leaves every edge with two elements makes a valid surface of two valid ones; with several, sides and
+//! connection have to be seen.
+bool is_valid(const MergeChoice& choice, const Graft& change, const Surface& a, const Element& element)
+{
+    if (choice.seams.size() == 1) {
+        return edges_fit(a, change);
+    }
+    int unused = 1 << 30;
+    const auto grafted = apply_grafts(a, {change}, unused);
+    return grafted && validate(grafted->surface, element).ok();
+}
+
+std::vector<MergeCandidate> valid_candidates(const std::vector<MergeChoice>& choices, const Surface& a,
+                                             const Surface& b, const Element& element, int count)
 {
     std::vector<MergeCandidate> result;
-    for (std::size_t i = 0; i < choices.size() && i < choices_built; ++i) {
-        if (static_cast<int>(result.size()) == count) {
-            break;
-        }
+    for (std::size_t i = 0; i < choices.size() && static_cast<int>(result.size()) < count; ++i) {
         MergeCandidate made = candidate(choices[i], a, b);
-        int unused = 1 << 30;
-        const auto grafted = apply_grafts(a, {made.change}, unused);
-        if (grafted && validate(grafted->surface, element).ok()) {
+        if (is_valid(choices[i], made.change, a, element)) {
             result.push_back(std::move(made));
         }
     }
@@ -316,6 +112,8 @@ Expected<Meeting> meeting(const Surface& a, const Surface& b, const Element& ele
     return result;
 }
 
+using Interfaces = std::vector<MergeInterface>;
+
 tl::unexpected<Error> no_candidate(const Interfaces& a, const Interfaces& b, std::size_t compatible)
 {
     if (a.empty() || b.empty()) {
@@ -341,7 +139,7 @@ Expected<std::vector<MergeCandidate>> four_candidates(const Surface& a, const Su
     }
     const Interfaces first = paper_interfaces(where->a, element);
     const Interfaces second = paper_interfaces(where->b, element);
-    const auto choices = compatible_choices(first, second, element, options, 1);
+    const auto choices = best_choices(first, second, element, {1, choices_built, 4, options.symmetry});
     auto result = valid_candidates(choices, a, b, element, options.count);
     if (result.empty()) {
         return no_candidate(first, second, choices.size());
@@ -355,7 +153,10 @@ Expected<std::vector<MergeCandidate>> search(const Meeting& where, const Element
 {
     const Interfaces first = nearby_interfaces(where.a, element, interfaces_tried, subsets_tried);
     const Interfaces second = nearby_interfaces(where.b, element, interfaces_tried, subsets_tried);
-    const auto choices = compatible_choices(first, second, element, options, zip_variants);
+    SeamOptions wanted;
+    wanted.count = choices_built;
+    wanted.symmetry = options.symmetry;
+    const auto choices = best_choices(first, second, element, wanted);
     auto result = valid_candidates(choices, where.a.surface, where.b.surface, element, options.count);
     if (result.empty()) {
         return no_candidate(first, second, choices.size());
@@ -389,38 +190,95 @@ Expected<std::vector<MergeCandidate>> merge_candidates(const Surface& a, const S
     return search(*where, element, options);
 }
 
+namespace {
+
+//! A candidate, embedded, with what speaks for it.
+struct Trial
+{
+    Merged merged;
+    bool crosses = false; //!< two elements run through each other
+    double off = 0;       //!< rms distance of the vertices from both inputs, la
+
+    bool usable() const
+    {
+        const EmbedReport& report = merged.embedding;
+        return report.converged && report.max_stretch < usable_stretch && !crosses && off <= far_off;
+    }
+    bool good() const { return settled(merged.embedding) && !crosses && off <= far_off; }
+};
+
+Expected<Trial> trial(const MergeCandidate& candidate, const Surface& a, const Surface& b, const Element& element,
+                      const EmbedOptions& embedding)
+{
+    int unused = 1 << 30;
+    auto grafted = apply_grafts(a, {candidate.change}, unused);
+    if (!grafted) {
+        return tl::make_unexpected(grafted.error());
+    }
+    Trial result{{std::move(grafted->surface), {}, candidate}};
+    Surface& surface = result.merged.surface;
+    result.merged.embedding = embed_in_place(surface, a, grafted->number, element, embedding);
+    result.crosses = crosses_itself(surface);
+    result.off = rms_distance(surface, a, b) / element.la;
+    return result;
+}
+
+bool better(const Trial& a, const Trial& b)
+{
+    const auto key = [](const Trial& t) {
+        const EmbedReport& embedding = t.merged.embedding;
+        return std::tuple(!embedding.converged, t.crosses, t.off > far_off, !settled(embedding),
+                          t.off + stretch_weight * embedding.max_stretch);
+    };
+    return key(a) < key(b);
+}
+
+//! \p found again with all repairs of the embedding, when that helps.
+Trial repaired(Trial found, const Surface& a, const Surface& b, const Element& element, const EmbedOptions& embedding)
+{
+    auto again = trial(found.merged.candidate, a, b, element, embedding);
+    return again && better(*again, found) ? std::move(*again) : std::move(found);
+}
+
+} // namespace
+
 Expected<Merged> merge(const Surface& a, const Surface& b, const Element& element, int index,
                        const MergeOptions& options)
 {
     MergeOptions enough = options;
-    enough.count = std::max(options.count, index + 4);
+    enough.count = std::max(options.count, index + most_candidates);
     const auto candidates = merge_candidates(a, b, element, enough);
     if (!candidates) {
         return tl::make_unexpected(candidates.error());
     }
-    std::optional<Merged> last;
+    EmbedOptions quick = options.embedding;
+    quick.start = Start::Edited;
+    quick.max_iterations = std::min(quick.max_iterations, trial_iterations);
+    std::optional<Trial> best;
     int found = 0;
-    for (const MergeCandidate& chosen : *candidates) {
-        int unused = 1 << 30;
-        auto grafted = apply_grafts(a, {chosen.change}, unused);
-        if (!grafted) {
+    std::size_t elements = 0;
+    for (std::size_t k = 0; k < candidates->size(); ++k) {
+        if (index == 0 && elements > embedded_elements && (best->usable() || k >= most_trials)) {
+            break;
+        }
+        auto tried = trial((*candidates)[k], a, b, element, quick);
+        if (!tried) {
             continue;
         }
-        Merged result{std::move(grafted->surface), {}, chosen};
-        result.embedding = embed_in_place(result.surface, a, grafted->number, element, options.embedding);
-        const bool good = settled(result.embedding);
-        if (good && found++ == index) {
-            return result;
+        elements += tried->merged.surface.n_faces();
+        if (tried->good() && found++ == index) {
+            return std::move(tried->merged);
         }
-        if (good || !last) {
-            last = std::move(result);
+        if (!best || better(*tried, *best)) {
+            best = std::move(*tried);
         }
     }
-    if (index == 0) {
-        return std::move(*last);
+    if (index > 0 || !best) {
+        return refuse("there is no candidate " + std::to_string(index) + ": the merge has " + std::to_string(found) +
+                      ", numbered from 0");
     }
-    return refuse("there is no candidate " + std::to_string(index) + ": the merge has " + std::to_string(found) +
-                  ", numbered from 0");
+    return best->merged.embedding.converged ? std::move(best->merged)
+                                            : repaired(std::move(*best), a, b, element, options.embedding).merged;
 }
 
 } // namespace rhombloom

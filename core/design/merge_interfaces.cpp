@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <queue>
 #include <set>
 
+#include "core/design/band_cut.h"
 #include "core/design/reference.h"
 
 namespace rhombloom {
@@ -69,14 +69,6 @@ double off_union(const MeetingSide& side, const Mask& kept)
     return sum;
 }
 
-void add_interface(const MeetingSide& side, const Element& element, const Mask& kept,
-                   std::vector<MergeInterface>& result)
-{
-    if (auto made = cut(side.surface, element, kept)) {
-        result.push_back({std::move(*made), off_union(side, kept)});
-    }
-}
-
 //! Subsets of a list of costs in the order of their sum.
 class CheapestSubsets
 {
@@ -111,43 +103,31 @@ private:
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
 
-//! Cheap test before a cut is made: at every vertex of the band the elements kept form one run, or all or none.
-class RunTest
+//! What is outside the other surface, element by element of the band.
+Mask nearest_to_union(const MeetingSide& side)
 {
-public:
-    explicit RunTest(const MeetingSide& side) : side_(side)
-    {
-        std::set<Vertex> vertices;
-        for (const Face f : side.band) {
-            for (const Vertex v : side.surface.fv_range(f)) {
-                vertices.insert(v);
-            }
-        }
-        for (const Vertex v : vertices) {
-            fans_.emplace_back();
-            for (const Halfedge h : side.surface.voh_range(v)) {
-                fans_.back().push_back(side.surface.face_handle(h).idx());
-            }
+    Mask kept = side.outside;
+    for (std::size_t i = 0; i < side.band.size(); ++i) {
+        kept[side.band[i].idx()] = side.depth[i] > 0 ? 1 : 0;
+    }
+    return kept;
+}
+
+//! The side's choices, the cheapest first.
+std::vector<BandChange> changes(const MeetingSide& side)
+{
+    std::vector<BandChange> result;
+    for (const std::vector<int>& choice : side.choices) {
+        BandChange& change = result.emplace_back();
+        for (const int i : choice) {
+            change.elements.push_back(side.band[i]);
+            change.cost += std::abs(side.depth[i]);
         }
     }
-
-    bool operator()(const Mask& kept) const
-    {
-        return std::all_of(fans_.begin(), fans_.end(), [&](const std::vector<int>& fan) {
-            int changes = 0;
-            for (std::size_t i = 0; i < fan.size(); ++i) {
-                changes += is_kept(kept, fan[i]) != is_kept(kept, fan[(i + 1) % fan.size()]) ? 1 : 0;
-            }
-            return changes <= 2;
-        });
-    }
-
-private:
-    static bool is_kept(const Mask& kept, int f) { return f >= 0 && kept[f] != 0; }
-
-    const MeetingSide& side_;
-    std::vector<std::vector<int>> fans_;
-};
+    std::stable_sort(result.begin(), result.end(),
+                     [](const BandChange& a, const BandChange& b) { return a.cost < b.cost; });
+    return result;
+}
 
 } // namespace
 
@@ -156,10 +136,12 @@ MeetingSide merge_side(const Surface& surface, const std::vector<char>& intersec
     MeetingSide side{
         surface, intersecting, outside_elements(surface, intersecting, other), band_elements(surface, intersecting), {},
         {}};
+    std::vector<Vec3> centres;
     for (const Face f : side.band) {
-        side.choices.push_back({static_cast<int>(side.depth.size())});
-        side.depth.push_back(signed_distance(other, centre(surface, f)));
+        side.choices.push_back({static_cast<int>(centres.size())});
+        centres.push_back(centre(surface, f));
     }
+    side.depth = signed_distances(other, centres);
     return side;
 }
 
@@ -190,8 +172,13 @@ bool tie_images(MeetingSide& side, const Element& element, const Symmetry& symme
 std::vector<MergeInterface> paper_interfaces(const MeetingSide& side, const Element& element)
 {
     std::vector<MergeInterface> result;
+    const auto add = [&](const Mask& kept) {
+        if (auto made = cut(side.surface, element, kept)) {
+            result.push_back({std::move(*made), off_union(side, kept)});
+        }
+    };
     Mask kept = side.outside;
-    add_interface(side, element, kept, result);
+    add(kept);
     for (const Face f : side.surface.faces()) {
         if (!side.intersecting[f.idx()]) {
             continue;
@@ -200,38 +187,32 @@ std::vector<MergeInterface> paper_interfaces(const MeetingSide& side, const Elem
             kept[f.idx()] = kept[f.idx()] || side.outside[g.idx()];
         }
     }
-    add_interface(side, element, kept, result);
+    add(kept);
     return result;
 }
 
 std::vector<MergeInterface> nearby_interfaces(const MeetingSide& side, const Element& element, int count, int tries)
 {
-    std::vector<std::vector<int>> order = side.choices;
-    const auto cost = [&](const std::vector<int>& choice) {
-        return std::accumulate(choice.begin(), choice.end(), 0.0,
-                               [&](double sum, int i) { return sum + std::abs(side.depth[i]); });
-    };
-    std::stable_sort(order.begin(), order.end(), [&](const auto& x, const auto& y) { return cost(x) < cost(y); });
+    BandCut band(side.surface, element, side.band, nearest_to_union(side));
+    const std::vector<BandChange> single = changes(side);
+    band.repair(single);
     std::vector<double> costs;
-    std::transform(order.begin(), order.end(), std::back_inserter(costs), cost);
-    Mask base = side.outside;
-    for (std::size_t i = 0; i < side.band.size(); ++i) {
-        base[side.band[i].idx()] = side.depth[i] > 0 ? 1 : 0;
-    }
-    std::vector<MergeInterface> result;
+    std::transform(single.begin(), single.end(), std::back_inserter(costs), [](const BandChange& c) { return c.cost; });
     CheapestSubsets subsets(costs);
-    const RunTest runs(side);
+    std::vector<MergeInterface> result;
     for (int t = 0; t < tries && !subsets.empty() && static_cast<int>(result.size()) < count; ++t) {
-        Mask kept = base;
-        for (const int choice : subsets.next()) {
-            for (const int i : order[choice]) {
-                char& face = kept[side.band[i].idx()];
-                face = face ? 0 : 1;
-            }
+        std::vector<Face> toggled;
+        for (const int k : subsets.next()) {
+            toggled.insert(toggled.end(), single[k].elements.begin(), single[k].elements.end());
         }
-        if (runs(kept)) {
-            add_interface(side, element, kept, result);
+        if (!band.runs_after_toggling(toggled)) {
+            continue;
         }
+        band.toggle(toggled);
+        if (auto made = band.cut()) {
+            result.push_back({std::move(*made), off_union(side, band.kept())});
+        }
+        band.toggle(toggled);
     }
     return result;
 }

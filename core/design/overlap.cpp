@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -88,6 +89,20 @@ std::vector<Box> all_bounds(const Surface& surface)
     return boxes;
 }
 
+//! A surface prepared for many questions.
+struct Prepared
+{
+    explicit Prepared(const Surface& surface) : boxes(all_bounds(surface))
+    {
+        for (const Face f : surface.faces()) {
+            elements.push_back(triangles(surface, f));
+        }
+    }
+
+    std::vector<Box> boxes; //!< one per element
+    std::vector<std::array<Triangle, 2>> elements;
+};
+
 bool close(const std::array<Triangle, 2>& a, const std::array<Triangle, 2>& b, double touching)
 {
     return std::any_of(a.begin(), a.end(), [&](const Triangle& s) {
@@ -95,8 +110,32 @@ bool close(const std::array<Triangle, 2>& a, const std::array<Triangle, 2>& b, d
     });
 }
 
-//! Solid angle of a triangle (Van Oosterom and Strackee 1983).
-double solid_angle(const Triangle& t, const Vec3& p)
+//! Adds up angles between -pi and pi, given as complex numbers, without an arc tangent for each.
+class AngleSum
+{
+public:
+    void add(double re, double im)
+    {
+        const double x = x_ * re - y_ * im;
+        const double y = x_ * im + y_ * re;
+        turns_ += (y_ > 0 && im > 0 && y < 0) ? 1 : (y_ < 0 && im < 0 && y > 0) ? -1 : 0;
+        const double size = std::max(std::abs(x), std::abs(y));
+        if (size > 0) {
+            x_ = x / size;
+            y_ = y / size;
+        }
+    }
+
+    double value() const { return std::atan2(y_, x_) + turns_ * two_pi; }
+
+private:
+    double x_ = 1;
+    double y_ = 0;
+    int turns_ = 0;
+};
+
+//! Half the solid angle of a triangle (Van Oosterom and Strackee 1983).
+void add_half_solid_angle(const Triangle& t, const Vec3& p, AngleSum& sum)
 {
     const Vec3 a = t[0] - p;
     const Vec3 b = t[1] - p;
@@ -104,7 +143,39 @@ double solid_angle(const Triangle& t, const Vec3& p)
     const double la = a.norm();
     const double lb = b.norm();
     const double lc = c.norm();
-    return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    sum.add(la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb, a.dot(b.cross(c)));
+}
+
+double winding_number(const Prepared& surface, const Vec3& p)
+{
+    AngleSum sum;
+    for (const auto& element : surface.elements) {
+        for (const Triangle& t : element) {
+            add_half_solid_angle(t, p, sum);
+        }
+    }
+    return sum.value() / two_pi;
+}
+
+double distance(const Vec3& p, const std::array<Triangle, 2>& element)
+{
+    return std::min(rhombloom::distance(p, element[0]), rhombloom::distance(p, element[1]));
+}
+
+//! The element with the nearest box gives a bound that few others come below.
+double unsigned_distance(const Prepared& surface, const Vec3& p)
+{
+    std::vector<double> to_box(surface.boxes.size());
+    std::transform(surface.boxes.begin(), surface.boxes.end(), to_box.begin(),
+                   [&](const Box& box) { return box.squaredExteriorDistance(p); });
+    const auto first = std::min_element(to_box.begin(), to_box.end()) - to_box.begin();
+    double nearest = distance(p, surface.elements[first]);
+    for (std::size_t f = 0; f < to_box.size(); ++f) {
+        if (to_box[f] < nearest * nearest) {
+            nearest = std::min(nearest, distance(p, surface.elements[f]));
+        }
+    }
+    return nearest;
 }
 
 int shared_corners(const Quad& a, const Quad& b)
@@ -133,6 +204,29 @@ bool elements_cross(const Surface& surface, Face f, Face g)
         }
     }
     return false;
+}
+
+//! Calls \p visit for every two elements that cross, as long as it returns true; false when it did not.
+//! The boxes are swept along x.
+template <class Visit>
+bool each_crossing(const Surface& surface, const Visit& visit)
+{
+    const std::vector<Box> boxes = all_bounds(surface);
+    std::vector<int> order(boxes.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int i, int j) { return boxes[i].min().x() < boxes[j].min().x(); });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const Box& box = boxes[order[i]];
+        for (std::size_t j = i + 1; j < order.size() && boxes[order[j]].min().x() <= box.max().x(); ++j) {
+            const Face f(order[i]);
+            const Face g(order[j]);
+            if (box.intersects(boxes[g.idx()]) && shared_corners(quad(surface, f), quad(surface, g)) < 2 &&
+                elements_cross(surface, f, g) && !visit(f, g)) {
+                return false;
+            }
+        }
+    }
+    return true;
 }
 
 } // namespace
@@ -178,20 +272,21 @@ double distance(const Triangle& a, const Triangle& b)
 Overlap overlap(const Surface& a, const Surface& b, double touching)
 {
     Overlap result{std::vector<char>(a.n_faces(), 0), std::vector<char>(b.n_faces(), 0)};
-    const std::vector<Box> boxes = all_bounds(b);
+    const Prepared first(a);
+    const Prepared second(b);
     Box whole;
-    for (const Box& box : boxes) {
+    for (const Box& box : second.boxes) {
         whole.extend(box);
     }
-    for (const Face f : a.faces()) {
-        const Box box = bounds(a, f);
-        if (box.exteriorDistance(whole) > touching) {
+    for (std::size_t f = 0; f < first.boxes.size(); ++f) {
+        if (first.boxes[f].exteriorDistance(whole) > touching) {
             continue;
         }
-        for (const Face g : b.faces()) {
-            if (box.exteriorDistance(boxes[g.idx()]) <= touching && close(triangles(a, f), triangles(b, g), touching)) {
-                result.a[f.idx()] = 1;
-                result.b[g.idx()] = 1;
+        for (std::size_t g = 0; g < second.boxes.size(); ++g) {
+            if (first.boxes[f].exteriorDistance(second.boxes[g]) <= touching &&
+                close(first.elements[f], second.elements[g], touching)) {
+                result.a[f] = 1;
+                result.b[g] = 1;
                 result.any = true;
             }
         }
@@ -201,42 +296,51 @@ Overlap overlap(const Surface& a, const Surface& b, double touching)
 
 double winding_number(const Surface& surface, const Vec3& p)
 {
-    double sum = 0;
-    for (const Face f : surface.faces()) {
-        for (const Triangle& t : triangles(surface, f)) {
-            sum += solid_angle(t, p);
-        }
+    return winding_number(Prepared(surface), p);
+}
+
+std::vector<double> signed_distances(const Surface& surface, const std::vector<Vec3>& points)
+{
+    const Prepared prepared(surface);
+    std::vector<double> result;
+    for (const Vec3& p : points) {
+        const double nearest = unsigned_distance(prepared, p);
+        result.push_back(winding_number(prepared, p) > 0.5 ? -nearest : nearest);
     }
-    return sum / (2 * two_pi);
+    return result;
 }
 
 double signed_distance(const Surface& surface, const Vec3& p)
 {
-    double nearest = 1e300;
-    double angle = 0;
-    for (const Face f : surface.faces()) {
-        for (const Triangle& t : triangles(surface, f)) {
-            nearest = std::min(nearest, distance(p, t));
-            angle += solid_angle(t, p);
-        }
+    return signed_distances(surface, {p}).front();
+}
+
+double rms_distance(const Surface& surface, const Surface& a, const Surface& b)
+{
+    const Prepared first(a);
+    const Prepared second(b);
+    double sum = 0;
+    for (const Vertex v : surface.vertices()) {
+        const Vec3& p = surface.point(v);
+        sum += std::pow(std::min(unsigned_distance(first, p), unsigned_distance(second, p)), 2);
     }
-    return angle > two_pi ? -nearest : nearest;
+    return std::sqrt(sum / static_cast<double>(surface.n_vertices()));
 }
 
 std::vector<std::pair<Face, Face>> self_intersections(const Surface& surface)
 {
     std::vector<std::pair<Face, Face>> result;
-    const std::vector<Box> boxes = all_bounds(surface);
-    for (const Face f : surface.faces()) {
-        for (int i = f.idx() + 1; i < static_cast<int>(surface.n_faces()); ++i) {
-            const Face g(i);
-            if (boxes[f.idx()].intersects(boxes[i]) && shared_corners(quad(surface, f), quad(surface, g)) < 2 &&
-                elements_cross(surface, f, g)) {
-                result.emplace_back(f, g);
-            }
-        }
-    }
+    each_crossing(surface, [&](Face f, Face g) {
+        result.emplace_back(std::min(f, g), std::max(f, g));
+        return true;
+    });
+    std::sort(result.begin(), result.end());
     return result;
+}
+
+bool crosses_itself(const Surface& surface)
+{
+    return !each_crossing(surface, [](Face, Face) { return false; });
 }
 
 } // namespace rhombloom

@@ -13,6 +13,13 @@ struct EmbedProgress
     double gradient_norm = 0; //!< largest absolute component, dimensionless
 };
 
+//! \brief Where the positions that embed() is given come from.
+enum class Start
+{
+    Unknown, //!< anywhere: sharp concavities are taken for dimples and folds, and repaired
+    Edited   //!< an equilibrium that was changed here and there: its creases are meant, nothing is repaired
+};
+
 struct EmbedOptions
 {
     double concavity_weight = 1; //!< times la: the shape does not depend on the unit (DESIGN.md section 3)
@@ -20,6 +27,7 @@ struct EmbedOptions
     double tolerance = 1e-9;     //!< largest absolute gradient component accepted as an equilibrium
     int max_iterations = 10000;  //!< most of them cheap
     double time_budget_s = 0;    //!< 0: none. A small budget is the coarse mode for dragging
+    Start start = Start::Unknown;
     int threads = 0;             //!< 0: the machine's, one for small surfaces. The result does not depend on it
     //! Called once per iteration; return false to stop. Empty: never called.
     std::function<bool(const EmbedProgress&)> progress;

@@ -77,7 +77,8 @@ VectorXd unfolded(const EmbeddingTerms& terms, const VectorXd& x, const Minimise
     return iterate.x;
 }
 
-constexpr int repairs = 5;
+constexpr int all_repairs = 5;
+constexpr int few_iterations = 25; // for the guards to go after an edit
 
 // The k-th repair, of the positions at the start or of the best result so far; false when it does not apply.
 bool repair(const EmbeddingTerms& terms, const VectorXd& start, const VectorXd& best, int k,
@@ -184,23 +185,24 @@ void remove_guards(EmbeddingTerms& terms)
     terms.hinge_law.ridge_height = 0;
 }
 
-Settled settle(EmbeddingTerms& terms, VectorXd& x, const MinimiseOptions& options)
+Settled settle(EmbeddingTerms& terms, VectorXd& x, const MinimiseOptions& options, Start start)
 {
     if (is_settled(terms, x, options.tolerance)) {
         remove_guards(terms);
         return {{StopReason::Converged, 0}, 0, false};
     }
-    VectorXd start = usable(terms, x);
-    if (is_wild(terms, start)) {
-        smooth(terms, start, 3);
-        start = usable(terms, start);
+    VectorXd first = usable(terms, x);
+    if (is_wild(terms, first)) {
+        smooth(terms, first, 3);
+        first = usable(terms, first);
     }
+    const int repairs = start == Start::Edited ? 0 : all_repairs;
     Settled settled;
-    Candidate best = attempt(terms, start, options);
+    Candidate best = attempt(terms, first, options);
     int iterations = best.result.iterations;
     for (int k = 0; k < repairs && best.result.reason != StopReason::Cancelled && !is_good(terms, best); ++k) {
         VectorXd repaired;
-        if (!repair(terms, start, best.iterate.x, k, options, repaired)) {
+        if (!repair(terms, first, best.iterate.x, k, options, repaired)) {
             continue;
         }
         ++settled.restarts;
@@ -217,7 +219,9 @@ Settled settle(EmbeddingTerms& terms, VectorXd& x, const MinimiseOptions& option
     best.result.iterations = iterations;
     settled.guarded = embedding_energy(terms, best.iterate.x).guard > 0;
     if (settled.guarded && best.result.reason == StopReason::Converged) {
-        settled.guarded = !stands_without_guards(terms, best, options);
+        MinimiseOptions rest = options;
+        rest.max_iterations = start == Start::Edited ? few_iterations : options.max_iterations;
+        settled.guarded = !stands_without_guards(terms, best, rest);
     }
     settled.result = best.result;
     x = best.iterate.x;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/form/embedding.h"
 #include "core/form/minimise.h"
 
 namespace rhombloom {
@@ -14,8 +15,9 @@ struct Settled
 //! \brief Bring \p x into equilibrium from any finite positions.
 //! \details minimise() from the positions, if they are of any use; then, while that has not converged or has left a
 //! dimple or a fold, from repaired ones (start_shape.h), at most five times. The lowest energy counts. Guards that bear
-//! load in the end are taken away when the shape stands without them.
-Settled settle(EmbeddingTerms& terms, Eigen::VectorXd& x, const MinimiseOptions& options);
+//! load in the end are taken away when the shape stands without them. An edited equilibrium is not repaired: the seam of
+//! two parts is sharply concave by design.
+Settled settle(EmbeddingTerms& terms, Eigen::VectorXd& x, const MinimiseOptions& options, Start start = Start::Unknown);
 
 //! \brief Take the barrier and the ridge out of the energy.
 void remove_guards(EmbeddingTerms& terms);
