@@ -23,7 +23,8 @@ struct Merge
 {
     std::string on;
     std::string with;
-    int candidate = 0; //!< rank in the list of merge_candidates
+    int candidate = 0;      //!< rank among the candidates that settle near the union of the parts
+    bool symmetric = false; //!< join the images of \p with as well
 };
 
 //! \brief Sweep a brush from a vertex (Sec. 4.3).

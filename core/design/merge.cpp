@@ -19,7 +19,7 @@ constexpr int interfaces_tried = 160;          // per surface
 constexpr int subsets_tried = 4000;            // per surface
 constexpr int choices_built = 40;              // best-scored choices that are made into changes until enough are valid
 constexpr int most_candidates = 8;             // asked for beyond the wanted one
-constexpr int most_trials = 8; // candidates that are embedded until one is at least usable;
+constexpr int most_trials = 8;                 // candidates that are embedded until one is at least usable;
 constexpr std::size_t embedded_elements = 500; // more of them, for a good one, as long as they have no more elements
 constexpr double usable_stretch = 0.05;
 constexpr double far_off = 0.4;       // la rms from the union of the inputs: the next candidate is tried
@@ -207,19 +207,61 @@ struct Trial
     bool good() const { return settled(merged.embedding) && !crosses && off <= far_off; }
 };
 
-Expected<Trial> trial(const MergeCandidate& candidate, const Surface& a, const Surface& b, const Element& element,
-                      const EmbedOptions& embedding)
+//! What is joined: both surfaces and, when asked for, the images of the second.
+struct Inputs
 {
-    int unused = 1 << 30;
-    auto grafted = apply_grafts(a, {candidate.change}, unused);
+    const Surface& a;
+    const Surface& b;
+    const Element& element;
+    const MergeOptions& options;
+    std::vector<Surface> all;
+    int first_serial = 0;
+};
+
+int serial_after(const Surface& surface)
+{
+    int next = 0;
+    for (const Face f : surface.faces()) {
+        next = std::max(next, surface.data(f).serial + 1);
+    }
+    return next;
+}
+
+Inputs inputs(const Surface& a, const Surface& b, const Element& element, const MergeOptions& options)
+{
+    Inputs result{a, b, element, options, {a, b}};
+    result.first_serial = std::max({options.first_serial, serial_after(a), serial_after(b)});
+    for (const SymmetryImage& image : options.all_images ? images(options.symmetry) : std::vector<SymmetryImage>{}) {
+        Surface& copy = result.all.emplace_back(b);
+        for (const Vertex v : copy.vertices()) {
+            copy.set_point(v, image.map * copy.point(v));
+        }
+    }
+    return result;
+}
+
+Expected<Trial> trial(const MergeCandidate& candidate, const Inputs& in, const EmbedOptions& embedding)
+{
+    const Symmetry symmetry = in.options.all_images ? in.options.symmetry : Symmetry{};
+    auto grafts = symmetric_grafts(in.a, in.element, symmetry, candidate.change);
+    if (!grafts) {
+        return tl::make_unexpected(grafts.error());
+    }
+    Trial result;
+    result.merged.candidate = candidate;
+    result.merged.next_serial = in.first_serial;
+    auto grafted = apply_grafts(in.a, *grafts, result.merged.next_serial);
     if (!grafted) {
         return tl::make_unexpected(grafted.error());
     }
-    Trial result{{std::move(grafted->surface), {}, candidate}};
-    Surface& surface = result.merged.surface;
-    result.merged.embedding = embed_in_place(surface, a, grafted->number, element, embedding);
+    if (const Validity validity = validate(grafted->surface, in.element); !validity.ok()) {
+        return refuse(validity.problems.front());
+    }
+    result.merged.surface = std::move(grafted->surface);
+    const Surface& surface = result.merged.surface;
+    result.merged.embedding = embed_in_place(result.merged.surface, in.a, grafted->number, in.element, embedding);
     result.crosses = crosses_itself(surface);
-    result.off = rms_distance(surface, a, b) / element.la;
+    result.off = rms_distance(surface, in.all) / in.element.la;
     return result;
 }
 
@@ -234,9 +276,9 @@ bool better(const Trial& a, const Trial& b)
 }
 
 //! \p found again with all repairs of the embedding, when that helps.
-Trial repaired(Trial found, const Surface& a, const Surface& b, const Element& element, const EmbedOptions& embedding)
+Trial repaired(Trial found, const Inputs& in)
 {
-    auto again = trial(found.merged.candidate, a, b, element, embedding);
+    auto again = trial(found.merged.candidate, in, in.options.embedding);
     return again && better(*again, found) ? std::move(*again) : std::move(found);
 }
 
@@ -254,15 +296,18 @@ Expected<Merged> merge(const Surface& a, const Surface& b, const Element& elemen
     EmbedOptions quick = options.embedding;
     quick.start = Start::Edited;
     quick.max_iterations = std::min(quick.max_iterations, trial_iterations);
+    const Inputs in = inputs(a, b, element, options);
     std::optional<Trial> best;
+    Error last;
     int found = 0;
     std::size_t elements = 0;
     for (std::size_t k = 0; k < candidates->size(); ++k) {
         if (index == 0 && elements > embedded_elements && (best->usable() || k >= most_trials)) {
             break;
         }
-        auto tried = trial((*candidates)[k], a, b, element, quick);
+        auto tried = trial((*candidates)[k], in, quick);
         if (!tried) {
+            last = tried.error();
             continue;
         }
         elements += tried->merged.surface.n_faces();
@@ -273,12 +318,14 @@ Expected<Merged> merge(const Surface& a, const Surface& b, const Element& elemen
             best = std::move(*tried);
         }
     }
-    if (index > 0 || !best) {
+    if (!best) {
+        return tl::make_unexpected(last);
+    }
+    if (index > 0) {
         return refuse("there is no candidate " + std::to_string(index) + ": the merge has " + std::to_string(found) +
                       ", numbered from 0");
     }
-    return best->merged.embedding.converged ? std::move(best->merged)
-                                            : repaired(std::move(*best), a, b, element, options.embedding).merged;
+    return best->merged.embedding.converged ? std::move(best->merged) : repaired(std::move(*best), in).merged;
 }
 
 } // namespace rhombloom

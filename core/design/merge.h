@@ -7,8 +7,10 @@ namespace rhombloom {
 
 struct MergeOptions
 {
-    int count = 8;     //!< candidates returned at most
-    Symmetry symmetry; //!< of the design: among equals the symmetric candidate wins
+    int count = 8;           //!< candidates returned at most
+    Symmetry symmetry;       //!< of the design: among equals the symmetric candidate wins
+    bool all_images = false; //!< join every image of the second surface, in the same way
+    int first_serial = -1;   //!< of the images' elements; -1: the one after the largest
     EmbedOptions embedding;
 };
 
@@ -47,9 +49,11 @@ struct Merged
     Surface surface; //!< embedded, in the pose of the first surface
     EmbedReport embedding;
     MergeCandidate candidate;
+    int next_serial = 0; //!< the first serial not used yet
 };
 
-//! \brief Merge and embed. Candidates that do not settle are passed over; \p index counts those that do.
+//! \brief Merge and embed. Candidates that do not settle, cross themselves or end far from the union of the inputs are
+//! passed over; \p index counts the others. For index 0 the best of a few is taken when there is no other.
 Expected<Merged> merge(const Surface& a, const Surface& b, const Element& element, int index,
                        const MergeOptions& options = {});
 

@@ -106,6 +106,7 @@ Expected<Operation> read_merge(ObjectReader& reader)
     merge.on = reader.text("on", "body");
     merge.with = reader.text("with", "");
     merge.candidate = reader.integer("candidate", 0, 0, 1000);
+    merge.symmetric = reader.flag("symmetric", false);
     return finished(reader, std::move(merge));
 }
 

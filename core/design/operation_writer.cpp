@@ -34,7 +34,11 @@ ordered_json write(const Place& place)
 
 ordered_json write(const Merge& merge)
 {
-    return {{"op", "merge"}, {"on", merge.on}, {"with", merge.with}, {"candidate", merge.candidate}};
+    ordered_json out = {{"op", "merge"}, {"on", merge.on}, {"with", merge.with}, {"candidate", merge.candidate}};
+    if (merge.symmetric) {
+        out["symmetric"] = true;
+    }
+    return out;
 }
 
 ordered_json write(const Extrude& extrude)

@@ -315,14 +315,16 @@ double signed_distance(const Surface& surface, const Vec3& p)
     return signed_distances(surface, {p}).front();
 }
 
-double rms_distance(const Surface& surface, const Surface& a, const Surface& b)
+double rms_distance(const Surface& surface, const std::vector<Surface>& others)
 {
-    const Prepared first(a);
-    const Prepared second(b);
+    const std::vector<Prepared> prepared(others.begin(), others.end());
     double sum = 0;
     for (const Vertex v : surface.vertices()) {
-        const Vec3& p = surface.point(v);
-        sum += std::pow(std::min(unsigned_distance(first, p), unsigned_distance(second, p)), 2);
+        double nearest = 1e300;
+        for (const Prepared& other : prepared) {
+            nearest = std::min(nearest, unsigned_distance(other, surface.point(v)));
+        }
+        sum += nearest * nearest;
     }
     return std::sqrt(sum / static_cast<double>(surface.n_vertices()));
 }

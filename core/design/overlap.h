@@ -35,8 +35,8 @@ double signed_distance(const Surface& surface, const Vec3& p);
 //! \brief The same for many points at once, which is much faster.
 std::vector<double> signed_distances(const Surface& surface, const std::vector<Vec3>& points);
 
-//! \brief Root mean square distance of the vertices of \p surface from the nearer of \p a and \p b, mm.
-double rms_distance(const Surface& surface, const Surface& a, const Surface& b);
+//! \brief Root mean square distance of the vertices of \p surface from the nearest of \p others, mm.
+double rms_distance(const Surface& surface, const std::vector<Surface>& others);
 
 //! \brief Pairs of elements of one surface that cross each other; neighbours may touch where they are hooked.
 std::vector<std::pair<Face, Face>> self_intersections(const Surface& surface);

@@ -135,11 +135,14 @@ Expected<void> run(const Merge& merge, const Context& context)
     }
     MergeOptions options;
     options.symmetry = context.design.symmetry;
+    options.all_images = merge.symmetric;
+    options.first_serial = context.scene.next_serial;
     options.embedding = context.embedding;
     auto merged = rhombloom::merge((*on)->surface, (*with)->surface, context.element(), merge.candidate, options);
     if (!merged) {
         return tl::make_unexpected(merged.error());
     }
+    context.scene.next_serial = merged->next_serial;
     (*on)->surface = std::move(merged->surface);
     (*on)->embedding = merged->embedding;
     context.scene.parts.erase(context.scene.parts.begin() + (*with - context.scene.parts.data()));
