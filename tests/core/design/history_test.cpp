@@ -35,12 +35,9 @@ TEST(Replay, TwiceGivesTheSameBytes)
     EXPECT_EQ(lists(first->surface).quads, lists(second->surface).quads);
 }
 
-TEST(Replay, SymmetricLimbsAreMirrorImages)
+//! The farthest that a vertex's mirror image (in x) lies from any vertex, mm.
+double asymmetry(const Surface& surface)
 {
-    const auto result = replay(*parse_design(two_limbs));
-    ASSERT_TRUE(result.has_value()) << result.error().message;
-    const Surface& surface = result->stages[1].surface;
-    EXPECT_TRUE(validate(surface, Element{}).ok());
     double worst = 0;
     for (const Vertex v : surface.vertices()) {
         const Vec3 image = surface.point(v).cwiseProduct(Vec3(-1, 1, 1));
@@ -50,7 +47,32 @@ TEST(Replay, SymmetricLimbsAreMirrorImages)
         }
         worst = std::max(worst, nearest);
     }
-    EXPECT_LT(worst, 1e-3 * 80);
+    return worst;
+}
+
+TEST(Replay, SymmetricLimbsAreMirrorImages)
+{
+    const auto result = replay(*parse_design(two_limbs));
+    ASSERT_TRUE(result.has_value()) << result.error().message;
+    const Surface& surface = result->stages[1].surface;
+    EXPECT_TRUE(validate(surface, Element{}).ok());
+    EXPECT_LT(asymmetry(surface), 1e-3 * 80);
+}
+
+TEST(Replay, ASymmetricMergeJoinsTheImageOfThePartToo)
+{
+    const auto result = replay(*parse_design(R"({"rhombloom": 1, "symmetry": {"mirror": [1, 0, 0]}, "operations": [
+        {"op": "place", "id": "body", "shape": "checker-80", "rotation_deg": [0, 0, 90]},
+        {"op": "place", "id": "leg", "shape": "polar-3x10", "position_mm": [100, 0, -340], "rotation_deg": [0, -8, 0]},
+        {"op": "merge", "on": "body", "with": "leg", "symmetric": true}]})"));
+    ASSERT_TRUE(result.has_value()) << result.error().message;
+    EXPECT_TRUE(validate(result->surface, Element{}).ok());
+    EXPECT_LT(asymmetry(result->surface), 1e-3 * 80);
+    EXPECT_EQ(result->surface.components, (std::vector<std::string>{"body", "leg", "leg 2"}));
+    std::set<int> serials;
+    for (const Face f : result->surface.faces()) {
+        EXPECT_TRUE(serials.insert(result->surface.data(f).serial).second);
+    }
 }
 
 TEST(Replay, ElementsKeepTheirSerialForAsLongAsTheyExist)

@@ -153,6 +153,30 @@ TEST(Operations, ALongDragMakesALongLimbThatFollowsIt)
     EXPECT_GT(made->reached.normalized().dot(direction), std::cos(radians(30)));
 }
 
+//! \p surface turned and moved at random so that it meets a 30-ball in the origin.
+Surface any_pose(Surface surface)
+{
+    const Eigen::AngleAxisd turn(*rc::gen::inRange(0, 628) / 100.0, any_direction());
+    const Vec3 offset = any_direction() * element.la * *rc::gen::inRange(10, 28) / 10.0;
+    for (const Vertex v : surface.vertices()) {
+        surface.set_point(v, turn * surface.point(v) + offset);
+    }
+    return surface;
+}
+
+// A single seam is checked without building the surface: every candidate must be buildable all the same.
+RC_GTEST_PROP(Operations, EveryMergeCandidateIsAValidSurface, ())
+{
+    const Surface ball = base_shape("ball-30", element)->surface;
+    const auto candidates = merge_candidates(ball, any_pose(base_shape(any_shape(40), element)->surface), element);
+    for (std::size_t i = 0; candidates && i < candidates->size(); ++i) {
+        int serial = 1000;
+        const auto made = apply_grafts(ball, {(*candidates)[i].change}, serial);
+        RC_ASSERT(made.has_value());
+        expect_valid(made->surface);
+    }
+}
+
 TEST(Operations, MergeNamesWhyItCannot)
 {
     const BaseShape ball = shapes::embedded("ball-30");
