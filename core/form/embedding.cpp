@@ -132,8 +132,7 @@ EmbedReport embed(Surface& surface, const Element& element, const EmbedOptions& 
     EmbeddingTerms terms = embedding_terms(surface, element, options);
     const Eigen::Matrix3Xd start = positions(surface);
     VectorXd x = unknowns(start, element.la);
-    const Settled settled =
-        settle(terms, x, minimise_options(options, element.la, surface.n_faces()), options.start);
+    const Settled settled = settle(terms, x, minimise_options(options, element.la, surface.n_faces()), options.start);
     Eigen::Matrix3Xd points = element.la * x.reshaped(3, surface.n_vertices());
     align_rigidly(points, start);
     for (const Vertex v : surface.vertices()) {

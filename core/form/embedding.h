@@ -28,7 +28,7 @@ struct EmbedOptions
     int max_iterations = 10000;  //!< most of them cheap
     double time_budget_s = 0;    //!< 0: none. A small budget is the coarse mode for dragging
     Start start = Start::Unknown;
-    int threads = 0;             //!< 0: the machine's, one for small surfaces. The result does not depend on it
+    int threads = 0; //!< 0: the machine's, one for small surfaces. The result does not depend on it
     //! Called once per iteration; return false to stop. Empty: never called.
     std::function<bool(const EmbedProgress&)> progress;
 };
