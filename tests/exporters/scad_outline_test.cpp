@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int segments = 360; // of the template
+constexpr int segments = 720; // of the template
 constexpr int finest = 1080;  // that its slider offers
 constexpr int parameter_sets = 80;
 
