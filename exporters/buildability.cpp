@@ -50,7 +50,7 @@ void judge_embedding(Buildability& report)
                                   "): " + e.message);
     }
     if (e.max_stretch > stretch_limit) {
-        report.problems.push_back("an element would have to stretch by " + to_fixed(100 * e.max_stretch, 2) +
+        report.problems.push_back("an element would have to stretch by " + to_fixed(100 * e.max_stretch, 3) +
                                   " %, possible is " + to_fixed(100 * stretch_limit, 0) +
                                   " %: ease the tightest limb or junction");
     }

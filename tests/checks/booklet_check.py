@@ -20,7 +20,7 @@ JARS = ["preflight", "pdfbox2", "pdfbox2-tools", "xmpbox", "fontbox2", "commons-
         "javax.activation", "jaxb-api"]
 DESIGNS = {"rhombic-6": "a4", "polar-3x3": "letter", "ball-30": "a4", "checker-120": "letter", "torus-12x6": "a4",
            "tube-6x6": "a4", "dome-5x3": "letter", "sheet-4x6": "a4", "sheet-1x1": "letter", "sheet-1x2": "a4",
-           "sheet-1x5": "a4", "sheet-1x7": "letter", "sheet-2x4": "a4"}
+           "sheet-1x5": "a4", "sheet-1x7": "letter"}
 
 
 def run(*command, **options):
@@ -309,7 +309,7 @@ def check_kit(folder, name, every_page=True):
     if len(kit.plan["steps"]) <= 60:
         check_imposed(kit)
     size = kit.pdf.stat().st_size
-    if size > 90000 + 8600 * len(kit.plan["steps"]):
+    if size > min(5e6, 90000 + 10000 * len(kit.plan["steps"])):
         kit.complain(f"{size} bytes for {len(kit.plan['steps'])} steps")
     print(f"{name}: {len(kit.plan['steps'])} steps, {len(pages)} pages read, {size} bytes, least red {red:.0f} mm2, wrong "
           f"pixels {100 * wrong:.2f} %, {len(kit.problems)} problems")
