@@ -112,7 +112,8 @@ Buildability buildability(const Replay& replay, const Piece& piece)
     report.problems = validity.problems;
     judge_embedding(report);
     judge_defects(report, surface, piece.element);
-    report.hooks = hook_checks(piece.parameters.hook, {piece.parameters.kerf, piece.material.strain_limit, piece.material.finger_strain_limit});
+    report.hooks = hook_checks(piece.parameters.hook, {piece.parameters.kerf, piece.material.strain_limit,
+                                                       piece.material.finger_strain_limit});
     for (const HookCheck& check : report.hooks) {
         if (!check.ok) {
             report.problems.push_back(check.id + ": " + check.sentence);

@@ -32,13 +32,20 @@ struct Box
 };
 
 //! What a machine does with a layer.
-enum class LayerUse { Engrave, CutInner, CutOuter, Sheet, Reference };
+enum class LayerUse
+{
+    Engrave,
+    CutInner,
+    CutOuter,
+    Sheet,
+    Reference
+};
 
 struct Layer
 {
-    std::string name;   //!< e.g. "CUT_OUTER"
+    std::string name; //!< e.g. "CUT_OUTER"
     LayerUse use = LayerUse::CutOuter;
-    unsigned rgb = 0;   //!< 0xRRGGBB
+    unsigned rgb = 0; //!< 0xRRGGBB
     std::vector<Path> paths;
 };
 

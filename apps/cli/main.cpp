@@ -57,9 +57,8 @@ int run_program(int argc, char** argv)
     app.footer("Example: rhombloom fabricate examples/ball-30.json -o kit\n"
                "`rhombloom COMMAND --help` tells more about each command.");
     cli::Run run;
-    for (const auto add :
-         {cli::add_fabricate, cli::add_check, cli::add_embed, cli::add_shapes, cli::add_plan, cli::add_nest, cli::add_import,
-          cli::add_studio}) {
+    for (const auto add : {cli::add_fabricate, cli::add_check, cli::add_embed, cli::add_shapes, cli::add_plan,
+                           cli::add_nest, cli::add_import, cli::add_studio}) {
         add(app, run);
     }
     if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
