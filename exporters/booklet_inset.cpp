@@ -10,7 +10,7 @@ namespace rhombloom {
 namespace {
 
 constexpr double mm2_per_pt2 = (25.4 / 72) * (25.4 / 72);
-constexpr double enough_area = 60;  // mm2
+constexpr double enough_area = 66;  // mm2; labels and thick sides take up to 40 of it
 constexpr double enough_width = 17; // points, about 6 mm
 constexpr int first_steps = 6;
 

@@ -16,7 +16,7 @@ using Layers = std::vector<std::pair<double, int>>;
 constexpr double touching = 1e-4;
 
 //! Pixels of a wrongly hidden part that is worth drawing again.
-constexpr int noticeable = 6;
+constexpr int noticeable = 9;
 
 //! All faces over a grid of pixels, every layer kept.
 class LayeredRaster
