@@ -1,7 +1,7 @@
 #include "apps/studio/server/geometry.h"
 
+#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -78,12 +78,11 @@ double strain(const Surface& surface, const Element& element, Face f)
     const double rest[6] = {
         element.lb, element.la, element.lb, element.la, long_diagonal(element), short_diagonal(element)};
     const double now[6] = {length(0, 1), length(1, 2), length(2, 3), length(3, 0), length(0, 2), length(1, 3)};
-    double worst = 0;
+    double largest = -1;
     for (int k = 0; k < 6; ++k) {
-        const double e = now[k] / rest[k] - 1;
-        worst = std::abs(e) > std::abs(worst) ? e : worst;
+        largest = std::max(largest, now[k] / rest[k] - 1);
     }
-    return worst;
+    return largest;
 }
 
 std::string geometry_bytes(const std::vector<const Surface*>& parts, const Element& element,

@@ -71,6 +71,20 @@ TEST(Strain, IsNothingInAFlatElement)
     EXPECT_NEAR(strain(surface, element, Face(0)), 0.02, 1e-6);
 }
 
+TEST(Strain, OfTheWorstElementIsTheLargestStretchOfTheEmbedding)
+{
+    const Element element;
+    auto ball = base_shape("ball-90", element);
+    ASSERT_TRUE(ball);
+    const EmbedReport report = embed(ball->surface, element);
+    double largest = -1;
+    for (const Face f : ball->surface.faces()) {
+        largest = std::max(largest, strain(ball->surface, element, f));
+    }
+    EXPECT_NEAR(largest, report.max_stretch, 1e-9);
+    EXPECT_LT(largest, 0.01);
+}
+
 //! Two balls, the second moved along z.
 MergeQuestion balls(double apart)
 {
