@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/form/parallel.h"
 #include "exporters/bent_element_bend.h"
-#include "exporters/bent_element_threads.h"
 
 namespace rhombloom {
 
@@ -174,8 +174,8 @@ void bend_all(const Context& context, std::vector<BentElement>& elements)
         corners.push_back(inside(frames.back(), c));
     }
     const SheetMechanics mechanics = sheet_mechanics(context.element, context.hooks, mean_corners(corners));
-    for_each_in_two_threads(
-        elements.size(), [&](std::size_t i) { elements[i].patch = outside(frames[i], bend(mechanics, corners[i])); });
+    parallel_tasks(default_threads(), static_cast<int>(elements.size()),
+                   [&](int i) { elements[i].patch = outside(frames[i], bend(mechanics, corners[i])); });
 }
 
 //! Where a hook's point lies on the neighbour's flat piece: as far from the node, as far inside its long side.
@@ -321,7 +321,8 @@ Expected<BentSurface> bent_surface(const Surface& surface, const Element& elemen
         elements[f.idx()].corners = piece_corners(surface, f);
     }
     bend_all(context, elements);
-    for_each_in_two_threads(elements.size(), [&](std::size_t i) { shape_element(context, elements, i, elements[i]); });
+    parallel_tasks(default_threads(), static_cast<int>(elements.size()),
+                   [&](int i) { shape_element(context, elements, i, elements[i]); });
     const BendingReport report = measure_bending(context, elements);
     return BentSurface{std::move(context.sheet), std::move(elements), report};
 }

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <atomic>
-#include <cstddef>
-#include <future>
 #include <optional>
-#include <thread>
-#include <vector>
+
+#include "core/form/parallel.h"
 
 namespace rhombloom::nesting {
 
@@ -15,35 +12,16 @@ namespace rhombloom::nesting {
 template <class Test>
 std::optional<std::size_t> first_of(std::size_t count, const Test& test)
 {
-    std::atomic<std::size_t> next = 0, found = count;
-    const auto work = [&] {
-        for (std::size_t i = next++; i < found; i = next++) {
-            if (test(i)) {
-                std::size_t lowest = found;
-                while (i < lowest && !found.compare_exchange_weak(lowest, i)) {
-                }
+    std::atomic<std::size_t> found = count;
+    parallel_tasks(default_threads(), static_cast<int>(count), [&](int k) {
+        const auto i = static_cast<std::size_t>(k);
+        if (i < found && test(i)) {
+            std::size_t lowest = found;
+            while (i < lowest && !found.compare_exchange_weak(lowest, i)) {
             }
         }
-    };
-    std::vector<std::future<void>> others;
-    for (unsigned t = 1; t < std::thread::hardware_concurrency(); ++t) {
-        others.push_back(std::async(std::launch::async, work));
-    }
-    work();
-    for (auto& other : others) {
-        other.get();
-    }
-    return found < count ? std::optional(found.load()) : std::nullopt;
-}
-
-//! \brief Calls \p work(i) for every index below \p count on all cores.
-template <class Work>
-void for_all(std::size_t count, const Work& work)
-{
-    first_of(count, [&](std::size_t i) {
-        work(i);
-        return false;
     });
+    return found < count ? std::optional(found.load()) : std::nullopt;
 }
 
 } // namespace rhombloom::nesting

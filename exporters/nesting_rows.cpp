@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/form/parallel.h"
 #include "core/units.h"
 #include "exporters/nesting_double.h"
-#include "exporters/nesting_parallel.h"
 #include "exporters/nesting_skyline.h"
 
 namespace rhombloom::nesting {
@@ -251,7 +251,7 @@ std::vector<TwoWays> rows_at(const Piece& piece, const Room& room, const std::ve
 {
     const Room lying{room.height, room.width};
     std::vector<TwoWays> rows(angles.size());
-    for_all(angles.size(), [&](std::size_t i) {
+    parallel_tasks(default_threads(), static_cast<int>(angles.size()), [&](int i) {
         const double lying_angle = piece.grain == Grain::Any ? angles[i] : angles[i] - pi / 2;
         rows[i] = {stacked_rows(piece, room, angles[i]), stacked_rows(piece, lying, lying_angle)};
     });

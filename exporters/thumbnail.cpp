@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <png.h>
 
-#include "exporters/bent_element_threads.h"
+#include "core/form/parallel.h"
 #include "exporters/thumbnail_raster.h"
 
 namespace rhombloom {
@@ -315,10 +315,10 @@ Expected<std::string> picture_png(const BentSurface& bent, const PictureOptions&
     const Lights lights = make_lights(scene, projection.camera);
     const Shading shading{options, samples, projection, lights, bent};
     std::vector<std::uint8_t> rgba(static_cast<std::size_t>(options.width) * options.height * 4);
-    for_each_in_two_threads(static_cast<std::size_t>(options.height), [&](std::size_t y) {
+    parallel_tasks(default_threads(), options.height, [&](int y) {
         for (int x = 0; x < options.width; ++x) {
-            const auto p = pixel(shading, x, static_cast<int>(y));
-            std::copy(p.begin(), p.end(), rgba.begin() + static_cast<std::ptrdiff_t>((y * options.width + x) * 4));
+            const auto p = pixel(shading, x, y);
+            std::copy(p.begin(), p.end(), rgba.begin() + (static_cast<std::ptrdiff_t>(y) * options.width + x) * 4);
         }
     });
     return write_png(rgba, options.width, options.height);

@@ -206,29 +206,6 @@ bool elements_cross(const Surface& surface, Face f, Face g)
     return false;
 }
 
-//! Calls \p visit for every two elements that cross, as long as it returns true; false when it did not.
-//! The boxes are swept along x.
-template <class Visit>
-bool each_crossing(const Surface& surface, const Visit& visit)
-{
-    const std::vector<Box> boxes = all_bounds(surface);
-    std::vector<int> order(boxes.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](int i, int j) { return boxes[i].min().x() < boxes[j].min().x(); });
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const Box& box = boxes[order[i]];
-        for (std::size_t j = i + 1; j < order.size() && boxes[order[j]].min().x() <= box.max().x(); ++j) {
-            const Face f(order[i]);
-            const Face g(order[j]);
-            if (box.intersects(boxes[g.idx()]) && shared_corners(quad(surface, f), quad(surface, g)) < 2 &&
-                elements_cross(surface, f, g) && !visit(f, g)) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
 } // namespace
 
 std::array<Triangle, 2> triangles(const Surface& surface, Face f)
@@ -329,20 +306,24 @@ double rms_distance(const Surface& surface, const std::vector<Surface>& others)
     return std::sqrt(sum / static_cast<double>(surface.n_vertices()));
 }
 
-std::vector<std::pair<Face, Face>> self_intersections(const Surface& surface)
-{
-    std::vector<std::pair<Face, Face>> result;
-    each_crossing(surface, [&](Face f, Face g) {
-        result.emplace_back(std::min(f, g), std::max(f, g));
-        return true;
-    });
-    std::sort(result.begin(), result.end());
-    return result;
-}
-
 bool crosses_itself(const Surface& surface)
 {
-    return !each_crossing(surface, [](Face, Face) { return false; });
+    const std::vector<Box> boxes = all_bounds(surface);
+    std::vector<int> order(boxes.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int i, int j) { return boxes[i].min().x() < boxes[j].min().x(); });
+    for (std::size_t i = 0; i < order.size(); ++i) { // the boxes are swept along x
+        const Box& box = boxes[order[i]];
+        for (std::size_t j = i + 1; j < order.size() && boxes[order[j]].min().x() <= box.max().x(); ++j) {
+            const Face f(order[i]);
+            const Face g(order[j]);
+            if (box.intersects(boxes[g.idx()]) && shared_corners(quad(surface, f), quad(surface, g)) < 2 &&
+                elements_cross(surface, f, g)) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 } // namespace rhombloom

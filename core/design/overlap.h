@@ -38,10 +38,7 @@ std::vector<double> signed_distances(const Surface& surface, const std::vector<V
 //! \brief Root mean square distance of the vertices of \p surface from the nearest of \p others, mm.
 double rms_distance(const Surface& surface, const std::vector<Surface>& others);
 
-//! \brief Pairs of elements of one surface that cross each other; neighbours may touch where they are hooked.
-std::vector<std::pair<Face, Face>> self_intersections(const Surface& surface);
-
-//! \brief Is there any such pair?
+//! \brief Do any two elements of one surface cross each other? Neighbours may touch where they are hooked.
 bool crosses_itself(const Surface& surface);
 
 } // namespace rhombloom

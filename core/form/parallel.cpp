@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -15,16 +17,27 @@ int default_threads()
 void parallel_tasks(int threads, int count, const std::function<void(int)>& task)
 {
     std::atomic<int> next = 0;
+    std::exception_ptr failure;
+    std::once_flag failed;
     const auto work = [&] {
-        for (int k = next++; k < count; k = next++) {
-            task(k);
+        try {
+            for (int k = next++; k < count; k = next++) {
+                task(k);
+            }
+        } catch (...) {
+            std::call_once(failed, [&] { failure = std::current_exception(); });
         }
     };
-    std::vector<std::jthread> helpers;
-    for (int k = 1; k < std::min(threads, count); ++k) {
-        helpers.emplace_back(work);
+    {
+        std::vector<std::jthread> helpers;
+        for (int k = 1; k < std::min(threads, count); ++k) {
+            helpers.emplace_back(work);
+        }
+        work();
     }
-    work();
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
 }
 
 } // namespace rhombloom

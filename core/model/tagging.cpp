@@ -81,14 +81,4 @@ Expected<std::vector<Side>> tag_sides(int vertex_count, const std::vector<Quad>&
     return sides;
 }
 
-void swap_tags(SurfaceLists& lists)
-{
-    for (Side& side : lists.sides) {
-        side = opposite(side);
-    }
-    for (Facing& facing : lists.facing) {
-        facing = facing == Facing::Front ? Facing::Back : Facing::Front;
-    }
-}
-
 } // namespace rhombloom

@@ -9,7 +9,4 @@ namespace rhombloom {
 //! \details A mesh with an odd cycle (an odd handle) cannot be built: the refusal names the cycle's vertices.
 Expected<std::vector<Side>> tag_sides(int vertex_count, const std::vector<Quad>& quads, Side first = Side::Long);
 
-//! \brief Swap every side and every facing: the same corner angles, so the same shape, with the other tagging.
-void swap_tags(SurfaceLists& lists);
-
 } // namespace rhombloom

@@ -149,17 +149,4 @@ Expected<Design> without_part(const Design& design, const std::string& id)
     return result;
 }
 
-std::string fresh_id(const Design& design, const std::string& wish)
-{
-    const auto taken = [&](const std::string& id) {
-        return std::any_of(design.operations.begin(), design.operations.end(),
-                           [&](const Operation& op) { return makes(op, id); });
-    };
-    std::string id = wish;
-    for (int k = 2; taken(id); ++k) {
-        id = wish + " " + std::to_string(k);
-    }
-    return id;
-}
-
 } // namespace rhombloom::studio

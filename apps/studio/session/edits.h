@@ -18,9 +18,6 @@ Expected<Design> without_part(const Design& design, const std::string& id);
 Vec3 euler_deg(const Eigen::Matrix3d& rotation);
 Eigen::Matrix3d rotation_matrix(const Vec3& euler_deg);
 
-//! \brief A part id that \p design does not use: "ball", "ball 2", ...
-std::string fresh_id(const Design& design, const std::string& wish);
-
 //! \brief The part that \p operation is about; of a merge the one that remains.
 const std::string& subject(const Operation& operation);
 

@@ -69,10 +69,4 @@ tl::expected<ScenePointer, Misfit> SceneCache::scene(const Design& design)
     return current;
 }
 
-tl::expected<ScenePointer, Misfit> SceneCache::scene_before(Design design, int index)
-{
-    design.operations.resize(index);
-    return scene(design);
-}
-
 } // namespace rhombloom::studio

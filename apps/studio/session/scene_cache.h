@@ -28,9 +28,6 @@ public:
     //! The scene after all operations of \p design; the empty scene when there are none.
     tl::expected<ScenePointer, Misfit> scene(const Design& design);
 
-    //! The scene before operation \p index; \pre the history up to there has been carried out before or can be.
-    tl::expected<ScenePointer, Misfit> scene_before(Design design, int index);
-
 private:
     ScenePointer find(const std::string& key);
     void keep(const std::string& key, ScenePointer scene);

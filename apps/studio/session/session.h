@@ -60,8 +60,6 @@ public:
     //! Replace the whole document (new, open), undoable like any change.
     Outcome replace(long revision, const Design& design);
 
-    SceneCache& cache() const { return cache_; }
-
 private:
     using DesignPointer = std::shared_ptr<const Design>;
 
@@ -70,7 +68,7 @@ private:
     Outcome refused(const std::string& message, int operation = -1) const;
 
     std::string path_;
-    mutable SceneCache cache_;
+    SceneCache cache_;
     mutable std::mutex mutex_; //!< of the snapshot pointer
     std::mutex changing_;      //!< one change at a time
     SnapshotPointer snapshot_;
