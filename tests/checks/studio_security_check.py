@@ -6,6 +6,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from studio_server import Studio, dummy_pages
@@ -106,6 +107,22 @@ with socket.create_connection(("127.0.0.1", studio.port), timeout=15) as slow:
     except TimeoutError:
         ended = None
 check("half a request is given up", ended is not None, "still waiting after 15 s")
+
+# One request a connection: what follows a refused one, its body for example, is never read as another.
+hidden = f"GET /api/state HTTP/1.1\r\nHost: {host}\r\nX-Rhombloom-Token: {token}\r\n\r\n".encode()
+for first in (f"POST /api/undo HTTP/1.1\r\nHost: {host}\r\nOrigin: http://evil.example\r\nContent-Length: {len(hidden)}", f"PUT / HTTP/1.1\r\nHost: {host}\r\nContent-Length: {len(hidden)}",
+              f"BREW / HTTP/1.1\r\nHost: {host}", "GET / HTTP/1.1\r\nHost: evil.example", f"GET / HTTP/1.1\r\nHost: {host}", f"OPTIONS /api/undo HTTP/1.1\r\nHost: {host}\r\nContent-Length: {len(hidden)}"):
+    with socket.create_connection(("127.0.0.1", studio.port), timeout=15) as pipe:
+        pipe.sendall(first.encode() + b"\r\n\r\n")
+        time.sleep(0.1)
+        answers = b""
+        try:
+            pipe.sendall(hidden)
+            while part := pipe.recv(65536):
+                answers += part
+        except ConnectionError:
+            pass
+    check(f"one answer to {first[:30]!r}", answers.count(b"HTTP/1.1 ") <= 1 and b"revision" not in answers, answers[:300])
 
 # The headers of the page.
 studio.request("GET", "/", headers=[("Host", host)])

@@ -11,8 +11,9 @@ namespace {
 
 constexpr std::size_t max_body = 8'000'000;
 constexpr int seconds_to_arrive = 5;
-constexpr int threads = 32; // a browser keeps up to six connections open
-constexpr std::size_t requests_per_connection = 100'000;
+constexpr int threads = 32; // a browser opens up to six connections at a time
+// Else the rest of a request that was refused early, its body for example, would be read as the next request.
+constexpr std::size_t requests_per_connection = 1;
 
 constexpr const char* page_policy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src 'self'; "
@@ -63,6 +64,12 @@ void put(const Reply& reply, const std::string& path, httplib::Response& respons
     }
 }
 
+//! Its body is read before it is answered: a connection that is closed over unread bytes can lose the answer.
+bool will_be_read(const httplib::Request& request)
+{
+    return request.method == "POST" && request.has_header("Content-Length");
+}
+
 Request translated(const httplib::Request& request)
 {
     Request result{request.method, request.path, {}, request.body};
@@ -110,15 +117,21 @@ Expected<void> serve(Studio& studio, const ServerOptions& options)
         return machine_failure("port " + std::to_string(options.port) + " is taken: choose another with --port");
     }
     const Guard guard(port, options.token);
-    server.set_pre_routing_handler([&](const httplib::Request& request, httplib::Response& response) {
+    const auto refused = [&](const httplib::Request& request, httplib::Response& response) {
         const int refusal = guard.refusal(provenance(request));
-        if (refusal == 0) {
-            return httplib::Server::HandlerResponse::Unhandled;
+        if (refusal != 0) {
+            put(error_reply(refusal, "this request is not from the studio's own page"), request.path, response);
         }
-        put(error_reply(refusal, "this request is not from the studio's own page"), request.path, response);
-        return httplib::Server::HandlerResponse::Handled;
+        return refusal != 0;
+    };
+    server.set_pre_routing_handler([&](const httplib::Request& request, httplib::Response& response) {
+        using Next = httplib::Server::HandlerResponse;
+        return !will_be_read(request) && refused(request, response) ? Next::Handled : Next::Unhandled;
     });
     const auto answer = [&](const httplib::Request& request, httplib::Response& response) {
+        if (refused(request, response)) {
+            return;
+        }
         const bool program = request.path.starts_with("/api/") || request.path.starts_with("/kit/");
         const bool reads = request.method != "POST";
         put(program || !reads ? studio.handle(translated(request)) : page(options.pages, request.path), request.path,
