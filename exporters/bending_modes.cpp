@@ -48,9 +48,25 @@ Eigen::Map<const Eigen::VectorXd> flat(const Points& points)
     return {points.data(), points.size()};
 }
 
-//! Poses of all elements on their common mean, which is centred on the origin.
-BendingModes align_all(const std::vector<Points>& shapes, const BentSurface& bent)
+double largest_distance(const Eigen::MatrixXd& residual)
 {
+    double worst = 0;
+    for (int c = 0; c < residual.cols(); ++c) {
+        for (int i = 0; i < residual.rows(); i += 3) {
+            worst = std::max(worst, residual.col(c).segment<3>(i).squaredNorm());
+        }
+    }
+    return std::sqrt(worst);
+}
+
+} // namespace
+
+BendingModes aligned_elements(const BentSurface& bent)
+{
+    std::vector<Points> shapes;
+    for (const BentElement& e : bent.elements) {
+        shapes.push_back(matrix_of(e.points));
+    }
     BendingModes result;
     result.poses.resize(shapes.size());
     Points mean = shapes.front();
@@ -70,7 +86,6 @@ BendingModes align_all(const std::vector<Points>& shapes, const BentSurface& ben
     return result;
 }
 
-//! The \p count leading eigenvectors of data * data^T by orthogonal iteration from fixed columns of \p data.
 Eigen::MatrixXd principal_directions(const Eigen::MatrixXd& data, int count)
 {
     const int wanted = std::min<int>(count + 8, static_cast<int>(std::min(data.rows(), data.cols())));
@@ -91,29 +106,13 @@ Eigen::MatrixXd principal_directions(const Eigen::MatrixXd& data, int count)
     return (basis * solver.eigenvectors().rowwise().reverse()).leftCols(std::min(count, wanted));
 }
 
-double largest_distance(const Eigen::MatrixXd& residual)
-{
-    double worst = 0;
-    for (int c = 0; c < residual.cols(); ++c) {
-        for (int i = 0; i < residual.rows(); i += 3) {
-            worst = std::max(worst, residual.col(c).segment<3>(i).squaredNorm());
-        }
-    }
-    return std::sqrt(worst);
-}
-
-} // namespace
-
 BendingModes bending_modes(const BentSurface& bent, double tolerance_mm, int most)
 {
-    std::vector<Points> shapes;
-    for (const BentElement& e : bent.elements) {
-        shapes.push_back(matrix_of(e.points));
-    }
-    BendingModes result = align_all(shapes, bent);
-    Eigen::MatrixXd residual(result.mean.size(), static_cast<int>(shapes.size()));
-    for (std::size_t f = 0; f < shapes.size(); ++f) {
-        residual.col(static_cast<int>(f)) = flat(inside(result.poses[f], shapes[f])) - result.mean;
+    BendingModes result = aligned_elements(bent);
+    Eigen::MatrixXd residual(result.mean.size(), static_cast<int>(bent.elements.size()));
+    for (std::size_t f = 0; f < bent.elements.size(); ++f) {
+        const Points points = matrix_of(bent.elements[f].points);
+        residual.col(static_cast<int>(f)) = flat(inside(result.poses[f], points)) - result.mean;
     }
     const Eigen::MatrixXd directions = principal_directions(residual, most);
     const Eigen::MatrixXd weights = directions.transpose() * residual;
@@ -122,7 +121,7 @@ BendingModes bending_modes(const BentSurface& bent, double tolerance_mm, int mos
         residual.noalias() -= directions.col(count) * weights.row(count);
     }
     result.modes = directions.leftCols(count);
-    for (std::size_t f = 0; f < shapes.size(); ++f) {
+    for (std::size_t f = 0; f < bent.elements.size(); ++f) {
         result.poses[f].weights = weights.col(static_cast<int>(f)).head(count);
     }
     return result;

@@ -22,6 +22,12 @@ struct BendingModes
     std::vector<BentPose> poses; //!< by face number
 };
 
+//! \brief Poses of all elements on their common mean, which is centred on the origin; no modes yet.
+BendingModes aligned_elements(const BentSurface& bent);
+
+//! \brief The \p count leading eigenvectors of data * data^T by orthogonal iteration from fixed columns of \p data.
+Eigen::MatrixXd principal_directions(const Eigen::MatrixXd& data, int count);
+
 //! \brief The fewest modes, at most \p most, with which no point is off by more than \p tolerance_mm; when that is not
 //! enough, \p most of them. See error_mm().
 BendingModes bending_modes(const BentSurface& bent, double tolerance_mm, int most);

@@ -1,28 +1,24 @@
 #include "exporters/bent_element.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
+#include <numeric>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "core/form/parallel.h"
 #include "exporters/bent_element_bend.h"
+#include "exporters/bent_element_hooks.h"
+#include "exporters/bent_element_relax.h"
+#include "exporters/bent_element_report.h"
+#include "exporters/bent_element_threads.h"
 
 namespace rhombloom {
 
 namespace {
 
-//! A point of a hook: which end of which short side, and where in that side's frame.
-struct HookPoint
-{
-    int point = 0;     //!< of the flat sheet
-    int node = 0;      //!< the piece's corner at that end
-    int far = 0;       //!< and at the other
-    double along = 0;  //!< mm from the node along the side
-    double beyond = 0; //!< mm outside the nominal side; negative on the element
-    double share = 0;  //!< how far it belongs to the neighbour's sheet, 0..1
-};
+using Corners = std::array<Vec3, 4>;
 
 //! The element's own frame: x along the long sides, z outward, left-handed when it is turned over.
 struct Frame
@@ -38,53 +34,11 @@ struct Context
 {
     const Surface& surface;
     const Element& element;
-    HookParameters hooks;
     FlatSheet sheet;
-    std::vector<HookPoint> hook_points;
+    PatchSamples samples; //!< at the sheet's points
+    Hooks hooks;
     std::map<std::pair<int, int>, std::array<int, 2>> faces_of_edge; //!< sorted vertices -> faces, -1: none
 };
-
-double smooth_step(double t)
-{
-    const double x = std::clamp(t, 0.0, 1.0);
-    return x * x * (3 - 2 * x);
-}
-
-//! The finger belongs wholly to the neighbour's sheet, the root climbs from one to the other, the rim stays.
-double neighbour_share(const HookParameters& hooks, double along, double beyond)
-{
-    const double climb = hooks.finger_width;
-    const double pivot = pivot_radius(hooks);
-    if (along > pivot + 0.5 * hooks.slit && beyond > 0) {
-        return 1;
-    }
-    const double rise = smooth_step((beyond + climb) / climb);
-    const double rim = smooth_step((along - pivot) / climb);
-    return rise * (beyond > 0 ? 1 : 1 - rim);
-}
-
-std::vector<HookPoint> find_hook_points(const FlatSheet& sheet, const Element& element, const HookParameters& hooks)
-{
-    const std::array<Vec2, 4> corners = flat_corners(element);
-    const double reach = pivot_radius(hooks) + hooks.slit + hooks.finger_length + hooks.finger_width;
-    std::vector<HookPoint> found;
-    for (int i = 0; i < static_cast<int>(sheet.points.size()); ++i) {
-        for (const int side : {1, 3}) {
-            const Vec2 origin = corners[side];
-            const Vec2 d = (corners[(side + 1) % 4] - origin).normalized();
-            const Vec2 r = sheet.points[i] - origin;
-            const bool first = r.dot(d) < element.la / 2;
-            HookPoint h{i, first ? side : (side + 1) % 4, first ? (side + 1) % 4 : side, 0, 0, 0};
-            h.along = first ? r.dot(d) : element.la - r.dot(d);
-            h.beyond = r.x() * d.y() - r.y() * d.x();
-            h.share = neighbour_share(hooks, h.along, h.beyond);
-            if (h.along < reach && h.along > 0 && h.share > 0) {
-                found.push_back(h);
-            }
-        }
-    }
-    return found;
-}
 
 std::map<std::pair<int, int>, std::array<int, 2>> find_edges(const Surface& surface)
 {
@@ -102,16 +56,16 @@ std::map<std::pair<int, int>, std::array<int, 2>> find_edges(const Surface& surf
     return edges;
 }
 
-std::array<Vec3, 4> corner_positions(const Surface& surface, const std::array<int, 4>& corners)
+Corners corner_positions(const Surface& surface, const std::array<int, 4>& corners)
 {
-    std::array<Vec3, 4> positions;
+    Corners positions;
     for (int k = 0; k < 4; ++k) {
         positions[k] = surface.point(Vertex(corners[k]));
     }
     return positions;
 }
 
-Frame frame_of(const std::array<Vec3, 4>& c, Outward outward)
+Frame frame_of(const Corners& c, Outward outward)
 {
     const Vec3 x = (c[1] - c[0] + c[2] - c[3]).normalized();
     const Vec3 normal = (c[2] - c[0]).cross(c[3] - c[1]) * sign(outward);
@@ -122,7 +76,7 @@ Frame frame_of(const std::array<Vec3, 4>& c, Outward outward)
     return frame;
 }
 
-std::array<Vec3, 4> inside(const Frame& frame, const std::array<Vec3, 4>& corners)
+Corners inside(const Frame& frame, const Corners& corners)
 {
     return {frame.inside(corners[0]), frame.inside(corners[1]), frame.inside(corners[2]), frame.inside(corners[3])};
 }
@@ -135,17 +89,94 @@ BentPatch outside(const Frame& frame, BentPatch patch)
     return patch;
 }
 
-//! The mean of all elements' corners in their own frames.
-std::array<Vec3, 4> mean_corners(const std::vector<std::array<Vec3, 4>>& corners)
+//! \name Bending
+//! \{
+
+double squared_distance(const Corners& a, const Corners& b)
 {
-    std::array<Vec3, 4> mean = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-    for (const auto& c : corners) {
+    double sum = 0;
+    for (int k = 0; k < 4; ++k) {
+        sum += (a[k] - b[k]).squaredNorm();
+    }
+    return sum;
+}
+
+//! The mean of all elements' corners in their own frames.
+Corners mean_corners(const std::vector<Corners>& corners)
+{
+    Corners mean = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    for (const Corners& c : corners) {
         for (int k = 0; k < 4; ++k) {
             mean[k] += c[k] / static_cast<double>(corners.size());
         }
     }
     return mean;
 }
+
+//! Few elements that are like all others, and which of them each is like most.
+struct Representatives
+{
+    std::vector<std::size_t> chosen;
+    std::vector<std::size_t> of; //!< index into chosen, by element
+};
+
+//! Farthest-point sampling: the next one chosen is the one least like those before.
+Representatives representatives(const std::vector<Corners>& corners, const Corners& mean, std::size_t most,
+                                double near_mm)
+{
+    std::vector<double> distance;
+    for (const Corners& c : corners) {
+        distance.push_back(1e6 + squared_distance(c, mean));
+    }
+    Representatives result;
+    result.of.resize(corners.size());
+    while (result.chosen.size() < most) {
+        const auto far = std::max_element(distance.begin(), distance.end());
+        if (*far < near_mm * near_mm) {
+            break;
+        }
+        const auto next = static_cast<std::size_t>(far - distance.begin());
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const double d = squared_distance(corners[i], corners[next]);
+            if (d < distance[i]) {
+                distance[i] = d;
+                result.of[i] = result.chosen.size();
+            }
+        }
+        result.chosen.push_back(next);
+    }
+    return result;
+}
+
+//! Representatives are bent from the mean element's shape, all others from their representative's: the result depends
+//! neither on the order nor on the number of threads.
+void bend_all(const Context& context, const HookParameters& hooks, const std::vector<int>& faces,
+              std::vector<BentElement>& elements)
+{
+    constexpr std::size_t most_representatives = 64;
+    std::vector<Frame> frames;
+    std::vector<Corners> corners;
+    for (const int f : faces) {
+        const BentElement& e = elements[f];
+        const Corners c = corner_positions(context.surface, e.corners);
+        frames.push_back(frame_of(c, e.outward));
+        corners.push_back(inside(frames.back(), c));
+    }
+    const Corners mean = mean_corners(corners);
+    const SheetMechanics mechanics = sheet_mechanics(context.element, hooks, mean);
+    const Representatives like = representatives(corners, mean, most_representatives, 1e-4 * context.element.la);
+    std::vector<BentPatch> solved(like.chosen.size());
+    for_each_in_two_threads(solved.size(), [&](std::size_t i) {
+        solved[i] = bend(mechanics, corners[like.chosen[i]], mechanics.mean, {100, 1e-5});
+    });
+    for_each_in_two_threads(faces.size(), [&](std::size_t i) {
+        const BentPatch& start = solved[like.of[i]];
+        const bool same = squared_distance(corners[i], corners[like.chosen[like.of[i]]]) < 1e-20;
+        elements[faces[i]].patch = outside(frames[i], same ? start : bend(mechanics, corners[i], start, {20, 1e-4}));
+    });
+}
+
+//! \}
 
 //! The element on the other side of the edge from corner \p a to corner \p b of element \p i; null at a boundary.
 const BentElement* neighbour(const Context& context, const std::vector<BentElement>& elements, std::size_t i, int a,
@@ -163,132 +194,71 @@ int corner_at(const BentElement& element, int vertex)
                             element.corners.begin());
 }
 
-//! Every element starts from the same solved patch: the result does not depend on the order.
-void bend_all(const Context& context, std::vector<BentElement>& elements)
-{
-    std::vector<Frame> frames;
-    std::vector<std::array<Vec3, 4>> corners;
-    for (const BentElement& e : elements) {
-        const std::array<Vec3, 4> c = corner_positions(context.surface, e.corners);
-        frames.push_back(frame_of(c, e.outward));
-        corners.push_back(inside(frames.back(), c));
-    }
-    const SheetMechanics mechanics = sheet_mechanics(context.element, context.hooks, mean_corners(corners));
-    parallel_tasks(default_threads(), static_cast<int>(elements.size()),
-                   [&](int i) { elements[i].patch = outside(frames[i], bend(mechanics, corners[i])); });
-}
-
-//! Where a hook's point lies on the neighbour's flat piece: as far from the node, as far inside its long side.
-Vec2 on_neighbour(const Context& context, const BentElement& self, const BentElement& other, const HookPoint& h)
-{
-    const std::array<Vec2, 4> corners = flat_corners(context.element);
-    const int node = corner_at(other, self.corners[h.node]);
-    const int far = corner_at(other, self.corners[h.far]);
-    const Vec2 inward(0, node < 2 ? 1 : -1);
-    return corners[node] + (corners[far] - corners[node]).normalized() * h.along + inward * h.beyond;
-}
-
 //! Lay the hooks over the neighbours: sheet over sheet with a little air, so that nothing touches nor flickers.
 void lay_hooks(const Context& context, const std::vector<BentElement>& elements, std::size_t i, BentElement& e)
 {
     const double lift = 1.4 * context.element.thickness;
-    for (const HookPoint& h : context.hook_points) {
+    for (std::size_t k = 0; k < context.hooks.points.size(); ++k) {
+        const HookPoint& h = context.hooks.points[k];
         const BentElement* other = neighbour(context, elements, i, h.node, h.far);
         if (other == nullptr) {
             continue;
         }
-        const Vec2 q = on_neighbour(context, e, *other, h);
-        const Vec3 normal = bent_normal(other->patch, q, other->outward);
-        const Vec3 over = bent_position(other->patch, q) + lift * normal;
+        const PatchSamples& there = context.hooks.on_neighbour[corner_at(*other, e.corners[h.node])];
+        const Vec3 normal = there.normal(other->patch, static_cast<int>(k), other->outward);
+        const Vec3 over = there.position(other->patch, static_cast<int>(k)) + lift * normal;
         e.points[h.point] += h.share * (over - e.points[h.point]);
         e.normals[h.point] = ((1 - h.share) * e.normals[h.point] + h.share * normal).normalized();
     }
 }
 
-void shape_element(const Context& context, const std::vector<BentElement>& elements, std::size_t i, BentElement& e)
+void shape_element(const Context& context, const std::vector<BentElement>& elements, const SheetRelaxation& relaxation,
+                   std::size_t i, BentElement& e)
 {
-    e.points.reserve(context.sheet.points.size());
-    for (const Vec2& p : context.sheet.points) {
-        e.points.push_back(bent_position(e.patch, p));
-        e.normals.push_back(bent_normal(e.patch, p, e.outward));
+    const int count = static_cast<int>(context.sheet.points.size());
+    for (int k = 0; k < count; ++k) {
+        e.points.push_back(context.samples.position(e.patch, k));
+        e.normals.push_back(context.samples.normal(e.patch, k, e.outward));
     }
     lay_hooks(context, elements, i, e);
+    SheetRelaxation::Rows rows(count, 3);
+    for (int k = 0; k < count; ++k) {
+        rows.row(k) = e.points[k];
+    }
+    rows = relaxation.relaxed(rows, corner_positions(context.surface, e.corners));
+    for (int k = 0; k < count; ++k) {
+        e.points[k] = rows.row(k);
+    }
 }
 
-//! \name Measuring
-//! \{
-
-struct Segment
+//! \p faces and all that share an edge with one of them, ascending.
+std::vector<int> with_neighbours(const Context& context, const std::vector<int>& faces)
 {
-    int a;
-    int b;
-    bool hook;
-};
-
-std::vector<Segment> segments(const Context& context)
-{
-    std::vector<bool> hook(context.sheet.points.size(), false);
-    for (const HookPoint& h : context.hook_points) {
-        hook[h.point] = true;
+    std::vector<bool> chosen(context.surface.n_faces(), false);
+    for (const int f : faces) {
+        chosen[f] = true;
+        for (const Face other : context.surface.ff_range(Face(f))) {
+            chosen[other.idx()] = true;
+        }
     }
-    std::vector<Segment> list;
-    for (const auto& t : context.sheet.triangles) {
-        for (int k = 0; k < 3; ++k) {
-            list.push_back({t[k], t[(k + 1) % 3], hook[t[k]] || hook[t[(k + 1) % 3]]});
+    std::vector<int> list;
+    for (int f = 0; f < static_cast<int>(chosen.size()); ++f) {
+        if (chosen[f]) {
+            list.push_back(f);
         }
     }
     return list;
 }
 
-double bow(const Element& element, const BentElement& e, const std::array<Vec3, 4>& c)
+std::vector<BentElement> unbent_elements(const Surface& surface)
 {
-    const std::array<Vec2, 4> flat = flat_corners(element);
-    const Vec3 low = bent_position(e.patch, 0.5 * (flat[0] + flat[1])) - 0.5 * (c[0] + c[1]);
-    const Vec3 high = bent_position(e.patch, 0.5 * (flat[2] + flat[3])) - 0.5 * (c[2] + c[3]);
-    return 0.5 * (low.norm() + high.norm());
+    std::vector<BentElement> elements(surface.n_faces());
+    for (const Face f : surface.faces()) {
+        elements[f.idx()].outward = surface.data(f).facing == Facing::Front ? Outward::Front : Outward::Back;
+        elements[f.idx()].corners = piece_corners(surface, f);
+    }
+    return elements;
 }
-
-void measure_element(const Context& context, const std::vector<Segment>& list, const BentElement& e,
-                     std::vector<double>& all, BendingReport& report)
-{
-    const FlatSheet& sheet = context.sheet;
-    for (const Segment& s : list) {
-        const double flat = (sheet.points[s.b] - sheet.points[s.a]).norm();
-        const double distortion = std::abs((e.points[s.b] - e.points[s.a]).norm() / flat - 1);
-        all.push_back(distortion);
-        double& worst = s.hook ? report.max_hook_distortion : report.max_length_distortion;
-        worst = std::max(worst, distortion);
-    }
-    double rim = 0;
-    for (std::size_t i = 0; i < sheet.rim; ++i) {
-        rim += (e.points[(i + 1) % sheet.rim] - e.points[i]).norm();
-    }
-    report.max_rim_distortion = std::max(report.max_rim_distortion, std::abs(rim / rim_length(sheet) - 1));
-    const std::array<Vec3, 4> corners = corner_positions(context.surface, e.corners);
-    const std::array<Vec2, 4> flat = flat_corners(context.element);
-    for (int k = 0; k < 4; ++k) {
-        const double error = (bent_position(e.patch, flat[k]) - corners[k]).norm();
-        report.max_corner_error_mm = std::max(report.max_corner_error_mm, error);
-    }
-    report.mean_bow_mm += bow(context.element, e, corners);
-}
-
-BendingReport measure_bending(const Context& context, const std::vector<BentElement>& elements)
-{
-    BendingReport report;
-    const std::vector<Segment> list = segments(context);
-    std::vector<double> all;
-    for (const BentElement& e : elements) {
-        measure_element(context, list, e, all, report);
-    }
-    report.mean_bow_mm /= static_cast<double>(elements.size());
-    const auto p99 = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 99 / 100);
-    std::nth_element(all.begin(), p99, all.end());
-    report.p99_length_distortion = *p99;
-    return report;
-}
-
-//! \}
 
 } // namespace
 
@@ -306,25 +276,42 @@ std::array<int, 4> piece_corners(const Surface& surface, Face f)
 
 Expected<BentSurface> bent_surface(const Surface& surface, const Element& element, const FlatSheetOptions& options)
 {
-    const HookParameters hooks = hook_parameters(element);
+    return bent_surface(surface, element, hook_parameters(element), options);
+}
+
+Expected<BentSurface> bent_surface(const Surface& surface, const Element& element, const HookParameters& hooks,
+                                   const FlatSheetOptions& options)
+{
+    std::vector<int> faces(surface.n_faces());
+    std::iota(faces.begin(), faces.end(), 0);
+    Expected<BentSurface> bent = bent_faces(surface, element, hooks, faces, options);
+    if (bent) {
+        bent->report = measure_bending(*bent, surface, element, hooks);
+    }
+    return bent;
+}
+
+Expected<BentSurface> bent_faces(const Surface& surface, const Element& element, const HookParameters& hooks,
+                                 const std::vector<int>& faces, const FlatSheetOptions& options)
+{
     const Expected<Path> outline = element_outline(hooks);
     if (!outline) {
         return tl::make_unexpected(outline.error());
     }
-    Context context{surface, element, hooks, flat_sheet(*outline, options), {}, {}};
-    context.hook_points = find_hook_points(context.sheet, element, hooks);
-    context.faces_of_edge = find_edges(surface);
-
-    std::vector<BentElement> elements(surface.n_faces());
-    for (const Face f : surface.faces()) {
-        elements[f.idx()].outward = surface.data(f).facing == Facing::Front ? Outward::Front : Outward::Back;
-        elements[f.idx()].corners = piece_corners(surface, f);
-    }
-    bend_all(context, elements);
-    parallel_tasks(default_threads(), static_cast<int>(elements.size()),
-                   [&](int i) { shape_element(context, elements, i, elements[i]); });
-    const BendingReport report = measure_bending(context, elements);
-    return BentSurface{std::move(context.sheet), std::move(elements), report};
+    const FlatSheet sheet = flat_sheet(*outline, options);
+    const Context context{surface,
+                          element,
+                          sheet,
+                          PatchSamples(sheet.points, rhomboid(element).inverse()),
+                          find_hooks(sheet, element, hooks),
+                          find_edges(surface)};
+    BentSurface bent{sheet, unbent_elements(surface), {}};
+    bend_all(context, hooks, with_neighbours(context, faces), bent.elements);
+    const SheetRelaxation relaxation(sheet, element, hooks, context.hooks);
+    for_each_in_two_threads(faces.size(), [&](std::size_t i) {
+        shape_element(context, bent.elements, relaxation, faces[i], bent.elements[faces[i]]);
+    });
+    return bent;
 }
 
 } // namespace rhombloom

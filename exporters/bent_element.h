@@ -42,6 +42,14 @@ struct BentSurface
 Expected<BentSurface> bent_surface(const Surface& surface, const Element& element,
                                    const FlatSheetOptions& options = {});
 
+//! \brief The same for hooks that were changed.
+Expected<BentSurface> bent_surface(const Surface& surface, const Element& element, const HookParameters& hooks,
+                                   const FlatSheetOptions& options = {});
+
+//! \brief Only the elements \p faces; all others are left without patch and points. No report.
+Expected<BentSurface> bent_faces(const Surface& surface, const Element& element, const HookParameters& hooks,
+                                 const std::vector<int>& faces, const FlatSheetOptions& options = {});
+
 //! \brief The piece's corners v0..v3 as vertices of face \p f, so that v0-v1 is a long side and v0 acute.
 std::array<int, 4> piece_corners(const Surface& surface, Face f);
 

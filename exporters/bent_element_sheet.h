@@ -17,9 +17,9 @@ struct FlatSheet
 
 struct FlatSheetOptions
 {
-    double tolerance = 0.1; //!< mm, of the rim to the true outline
+    double tolerance = 0.25; //!< mm, of the rim to the true outline
     double rim_step = 9;    //!< mm, longest segment of the rim
-    double along = 9;       //!< mm, spacing of the inner points along the long sides, the direction that bends
+    double along = 12;      //!< mm, spacing of the inner points along the long sides, the direction that bends
     double across = 22;     //!< mm, and across them
 };
 

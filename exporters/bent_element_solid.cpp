@@ -24,6 +24,7 @@ SolidElement solid_element(const BentSurface& bent, const BentElement& element, 
         for (std::size_t i = 0; i < element.points.size(); ++i) {
             Vec3 normal = side * element.normals[i];
             solid.points.push_back(element.points[i] + 0.5 * thickness * normal);
+            normal.normalize();
             if (i < bent.sheet.rim) {
                 normal = (normal + lean * rim_direction(bent, element, i)).normalized();
             }

@@ -1,8 +1,11 @@
 #include "exporters/preview.h"
 
-#include <cmath>
+#include <algorithm>
+#include <future>
 
 #include "core/text.h"
+#include "exporters/bending_modes_settle.h"
+#include "exporters/bent_element_report.h"
 #include "exporters/preview_html.h"
 #include "exporters/preview_model.h"
 
@@ -34,32 +37,73 @@ PictureOptions thumbnail_options(const PreviewOptions& options)
     return picture;
 }
 
-constexpr int most_modes = 40;
-
-//! The smaller of the two encodings that keep the tolerance. Merging costs about 1600 bytes per element: it is only
-//! tried where the modes come near that.
-Expected<CompressedPreview> smallest_glb(const PreviewModel& model, const PreviewOptions& options,
-                                         PreviewReport& report)
+//! \brief How many bending modes the file can pay for: a mode costs its points and a weight per element.
+//! \details The budget is what people send without thinking: 65 kB for 188 elements, 150 kB for 588.
+int affordable_modes(std::size_t elements, std::size_t points)
 {
-    const std::size_t merged_guess = 1400 * model.labels.size();
-    Expected<CompressedPreview> best = refuse("no bending modes");
-    // How much of the tolerance the left-out modes may take; the rest is for rounding.
-    for (const double share : {0.6, 0.3}) {
-        best = modes_glb(model, bending_modes(model.bent, share * options.tolerance_mm, most_modes), options);
-        if (best && best->max_error_mm <= options.tolerance_mm) {
-            break;
-        }
+    const auto n = static_cast<double>(elements);
+    const double budget = 25'000 + 212 * n;
+    const double fixed = 9'000 + 120 * n;
+    const double each = 3.6 * n + 10 * static_cast<double>(points) + 60;
+    return std::clamp(static_cast<int>((budget - fixed) / each), 16, 40);
+}
+
+//! Final and temporary elements in one list.
+BentSurface together(const BentSurface& bent, const PreviewSteps& steps)
+{
+    BentSurface all = bent;
+    all.elements.insert(all.elements.end(), steps.temporary.begin(), steps.temporary.end());
+    return all;
+}
+
+//! Give the elements of \p all, as the modes describe them, back to model and steps.
+void part(BentSurface all, BendingModes modes, PreviewModel& model, PreviewSteps& steps)
+{
+    const auto count = static_cast<std::ptrdiff_t>(model.bent.elements.size());
+    steps.temporary.assign(all.elements.begin() + count, all.elements.end());
+    steps.temporary_poses.assign(modes.poses.begin() + count, modes.poses.end());
+    all.elements.resize(model.bent.elements.size());
+    modes.poses.resize(model.bent.elements.size());
+    model.bent.elements = std::move(all.elements);
+    model.modes = std::move(modes);
+}
+
+//! \brief Settle all elements in few bending modes; when that would bend outlines or corners out of true, leave the
+//! shapes as they are and describe them as well as modes can.
+PreviewEncoding choose_modes(PreviewModel& model, PreviewSteps& steps, const Element& element,
+                             const HookParameters& hooks, const PreviewOptions& options)
+{
+    BentSurface all = together(model.bent, steps);
+    SettleReport report;
+    BendingModes modes = settle(all, element, hooks, affordable_modes(all.elements.size(), all.sheet.points.size()),
+                                &report);
+    if (report.max_rim_distortion < 0.009 && report.max_corner_error_mm < 0.09) {
+        part(std::move(all), std::move(modes), model, steps);
+        return PreviewEncoding::BendingModes;
     }
-    report.encoding = PreviewEncoding::BendingModes;
-    if (!best || best->max_error_mm > options.tolerance_mm || best->bytes.size() > merged_guess) {
+    all = together(model.bent, steps);
+    modes = bending_modes(all, 0.6 * options.tolerance_mm, 64);
+    part(std::move(all), std::move(modes), model, steps);
+    return PreviewEncoding::Merged;
+}
+
+//! Modes if they hold the tolerance, which only rounding can break; few elements may be smaller merged.
+Expected<CompressedPreview> smallest_glb(const PreviewModel& model, const PreviewOptions& options,
+                                         PreviewEncoding& encoding)
+{
+    constexpr std::size_t few = 12;
+    Expected<CompressedPreview> best = refuse("no bending modes");
+    if (encoding == PreviewEncoding::BendingModes) {
+        best = modes_glb(model, options);
+    }
+    const bool good = best && best->max_error_mm <= options.tolerance_mm;
+    if (!good || model.labels.size() <= few) {
         Expected<CompressedPreview> merged = merged_glb(model, options);
-        const bool good = best && best->max_error_mm <= options.tolerance_mm;
         if (!merged || !good || merged->bytes.size() < best->bytes.size()) {
-            report.encoding = PreviewEncoding::Merged;
+            encoding = PreviewEncoding::Merged;
             return merged;
         }
     }
-    report.modes = best->modes;
     return best;
 }
 
@@ -93,40 +137,49 @@ Expected<PreviewFiles> preview_files(const Replay& replay, const AssemblyPlan& p
     if (auto ok = check(options); !ok) {
         return tl::make_unexpected(ok.error());
     }
-    Expected<BentSurface> bent = bent_surface(replay.surface, element);
+    const HookParameters hooks = options.hooks.value_or(hook_parameters(element));
+    Expected<BentSurface> bent = bent_surface(replay.surface, element, hooks);
     if (!bent) {
         return tl::make_unexpected(bent.error());
     }
-    const PreviewModel model{std::move(*bent), element_labels(replay.surface, plan), replay.surface.components,
-                             element.thickness, options.title};
-    PreviewFiles result;
-    const Expected<CompressedPreview> compressed = smallest_glb(model, options, result.report);
-    if (!compressed) {
-        return tl::make_unexpected(compressed.error());
-    }
-    const Expected<PreviewSteps> steps = preview_steps(replay, plan, element);
+    Expected<PreviewSteps> steps = preview_steps(replay, plan, element, hooks);
     if (!steps) {
         return tl::make_unexpected(steps.error());
     }
+    PreviewModel model{std::move(*bent), {}, element_labels(replay.surface, plan), replay.surface.components,
+                       element.thickness, options.title};
+    PreviewEncoding encoding = choose_modes(model, *steps, element, hooks, options);
+    model.bent.report = measure_bending(model.bent, replay.surface, element, hooks);
+    // The picture needs no other file: it is taken beside them.
+    auto picture = std::async(std::launch::async, [&] { return picture_png(model.bent, thumbnail_options(options)); });
+    const Expected<CompressedPreview> compressed = smallest_glb(model, options, encoding);
     Expected<PreviewPage> page = preview_page(model, *steps, element, options);
+    std::string plain = plain_glb(model, options);
+    Expected<std::string> png = picture.get();
+    if (!compressed) {
+        return tl::make_unexpected(compressed.error());
+    }
     if (!page) {
         return tl::make_unexpected(page.error());
     }
-    Expected<std::string> picture = picture_png(model.bent, thumbnail_options(options));
-    if (!picture) {
-        return tl::make_unexpected(picture.error());
+    if (!png) {
+        return tl::make_unexpected(png.error());
     }
-    result.report.bending = model.bent.report;
-    result.report.max_position_error_mm = compressed->max_error_mm;
+    PreviewFiles result;
+    PreviewReport& report = result.report;
+    report.bending = model.bent.report;
+    report.encoding = encoding;
+    report.modes = encoding == PreviewEncoding::BendingModes ? compressed->modes : 0;
+    report.max_position_error_mm = compressed->max_error_mm;
+    report.html_position_error_mm = page->max_error_mm;
+    report.glb_bytes = compressed->bytes.size();
+    report.plain_bytes = plain.size();
+    report.html_bytes = page->html.size();
+    report.thumbnail_bytes = png->size();
     result.files["preview.glb"] = compressed->bytes;
-    result.files["preview-plain.glb"] = plain_glb(model, options);
+    result.files["preview-plain.glb"] = std::move(plain);
     result.files["preview.html"] = std::move(page->html);
-    result.files["thumbnail.png"] = std::move(*picture);
-    result.report.glb_bytes = result.files["preview.glb"].size();
-    result.report.plain_bytes = result.files["preview-plain.glb"].size();
-    result.report.html_position_error_mm = page->max_error_mm;
-    result.report.html_bytes = result.files["preview.html"].size();
-    result.report.thumbnail_bytes = result.files["thumbnail.png"].size();
+    result.files["thumbnail.png"] = std::move(*png);
     return result;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/building/assembly_plan.h"
 #include "exporters/save.h"
 #include "exporters/thumbnail.h"
@@ -13,6 +15,7 @@ struct PreviewOptions
     LampLook lamp = LampLook::Off;              //!< On: warm emission in the 3D files, a lit thumbnail
     int thumbnail_size = 768;                   //!< pixels
     Background background = Background::Studio; //!< of the thumbnail
+    std::optional<HookParameters> hooks;        //!< the default ones for the element when not given
 };
 
 //! How preview.glb holds the elements.

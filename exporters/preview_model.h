@@ -19,6 +19,7 @@ struct ElementLabel
 struct PreviewModel
 {
     BentSurface bent;
+    BendingModes modes; //!< of the bent elements
     std::vector<ElementLabel> labels; //!< by face number
     std::vector<std::string> components;
     double thickness = 0;
@@ -46,7 +47,6 @@ Expected<CompressedPreview> merged_glb(const PreviewModel& model, const PreviewO
 
 //! \brief One Draco element with bending modes as morph targets (and a last target that lays it flat); a node with
 //! weights per element, grouped by component and side. Its error says whether the modes were enough.
-Expected<CompressedPreview> modes_glb(const PreviewModel& model, const BendingModes& modes,
-                                      const PreviewOptions& options);
+Expected<CompressedPreview> modes_glb(const PreviewModel& model, const PreviewOptions& options);
 
 } // namespace rhombloom

@@ -410,9 +410,9 @@ CompressedPreview write(const PreviewModel& model, const PreviewOptions& options
 
 } // namespace
 
-Expected<CompressedPreview> modes_glb(const PreviewModel& model, const BendingModes& modes,
-                                      const PreviewOptions& options)
+Expected<CompressedPreview> modes_glb(const PreviewModel& model, const PreviewOptions& options)
 {
+    const BendingModes& modes = model.modes;
     const LocalShapes shapes = local_shapes(model, modes);
     const SolidElement mean = mean_shape(shapes);
     const Grid grid = make_grid(options.tolerance_mm, flat_reach(model, mean));

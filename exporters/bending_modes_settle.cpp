@@ -1,0 +1,280 @@
+#include "exporters/bending_modes_settle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "exporters/bent_element_hooks.h"
+#include "exporters/bent_element_threads.h"
+
+namespace rhombloom {
+
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr double core_anchor = 0.003;
+constexpr double hook_anchor = 0.05;
+constexpr double corner_anchor = 1e4;
+constexpr double rim_stiffness = 20;
+
+struct Segment
+{
+    int a;
+    int b;
+    double length;
+    double stiffness;
+    bool rim;
+};
+
+//! What all elements share. Points are the sheet's, then the four corners.
+struct Model
+{
+    std::vector<Segment> segments;
+    double rim = 0; //!< length of the flat outline
+    Vector anchors; //!< one per point
+    Vector mean;
+    Matrix modes;
+    Matrix segment_modes; //!< 3 rows per segment: difference of its ends' modes
+    Matrix anchored;      //!< modes^T anchors modes
+};
+
+std::vector<Segment> find_segments(const FlatSheet& sheet, const Element& element)
+{
+    const int rim = static_cast<int>(sheet.rim);
+    std::set<std::pair<int, int>> pairs;
+    for (const auto& t : sheet.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            pairs.insert(std::minmax(t[k], t[(k + 1) % 3]));
+        }
+    }
+    std::vector<Segment> list;
+    for (const auto& [a, b] : pairs) {
+        const double length = (sheet.points[a] - sheet.points[b]).norm();
+        const bool outer = b < rim && (b == a + 1 || (a == 0 && b == rim - 1));
+        list.push_back({a, b, length, 0.1 * element.la / std::max(length, 0.01 * element.la), outer});
+    }
+    return list;
+}
+
+Vector find_anchors(const FlatSheet& sheet, const Element& element, const HookParameters& hooks)
+{
+    Vector anchors = Vector::Constant(static_cast<int>(sheet.points.size()) + 4, core_anchor);
+    for (const HookPoint& h : find_hooks(sheet, element, hooks).points) {
+        anchors(h.point) = core_anchor + h.share * (hook_anchor - core_anchor);
+    }
+    anchors.tail<4>().setConstant(corner_anchor);
+    return anchors;
+}
+
+//! Points and corners of an element in its pose.
+Vector local_points(const BentElement& e, const BentPose& pose, const std::array<Vec2, 4>& flat)
+{
+    Vector local(3 * (e.points.size() + 4));
+    int row = 0;
+    const auto put = [&](const Vec3& p) {
+        local.segment<3>(row) = pose.axes.transpose() * (p - pose.origin);
+        row += 3;
+    };
+    for (const Vec3& p : e.points) {
+        put(p);
+    }
+    for (const Vec2& p : flat) {
+        put(bent_position(e.patch, p));
+    }
+    return local;
+}
+
+void finish(Model& model)
+{
+    const int count = static_cast<int>(model.modes.cols());
+    model.segment_modes.resize(3 * model.segments.size(), count);
+    for (std::size_t s = 0; s < model.segments.size(); ++s) {
+        model.segment_modes.middleRows<3>(static_cast<int>(3 * s)) =
+            model.modes.middleRows<3>(3 * model.segments[s].a) - model.modes.middleRows<3>(3 * model.segments[s].b);
+    }
+    Matrix weighted = model.modes;
+    for (int i = 0; i < model.anchors.size(); ++i) {
+        weighted.middleRows<3>(3 * i) *= model.anchors(i);
+    }
+    model.anchored = model.modes.transpose() * weighted;
+}
+
+//! Normal equations of one Gauss-Newton step in the weights and, last, translation and rotation in the own frame.
+struct System
+{
+    Matrix matrix;
+    Vector right;
+};
+
+void add_segments(const Model& model, const Vector& shape, System& system)
+{
+    const int count = static_cast<int>(model.modes.cols());
+    Matrix rows(model.segments.size() + 1, count);
+    Vector residual(model.segments.size() + 1);
+    Eigen::RowVectorXd rim_row = Eigen::RowVectorXd::Zero(count);
+    double rim = -model.rim;
+    for (std::size_t s = 0; s < model.segments.size(); ++s) {
+        const Segment& segment = model.segments[s];
+        const int row = static_cast<int>(s);
+        const Vec3 d = shape.segment<3>(3 * segment.a) - shape.segment<3>(3 * segment.b);
+        const double length = std::max(d.norm(), 1e-9);
+        const double k = std::sqrt(segment.stiffness);
+        rows.row(row).noalias() = d.transpose() * (1 / length) * model.segment_modes.middleRows<3>(3 * row);
+        if (segment.rim) {
+            rim_row += rows.row(row);
+            rim += length;
+        }
+        rows.row(row) *= k;
+        residual(row) = k * (length - segment.length);
+    }
+    rows.bottomRows<1>() = std::sqrt(rim_stiffness) * rim_row;
+    residual(residual.size() - 1) = std::sqrt(rim_stiffness) * rim;
+    system.matrix.topLeftCorner(count, count).noalias() += rows.transpose() * rows;
+    system.right.head(count).noalias() -= rows.transpose() * residual;
+}
+
+//! How a point moves with translation and rotation.
+Eigen::Matrix<double, 3, 6> rigid_rows(const Vec3& p)
+{
+    Eigen::Matrix<double, 3, 6> rows;
+    rows << 1, 0, 0, 0, p.z(), -p.y(), 0, 1, 0, -p.z(), 0, p.x(), 0, 0, 1, p.y(), -p.x(), 0;
+    return rows;
+}
+
+void add_anchors(const Model& model, const Vector& shape, const Vector& places, System& system)
+{
+    const int count = static_cast<int>(model.modes.cols());
+    Matrix rigid(shape.size(), 6);
+    Vector gap = shape - places;
+    for (int i = 0; i < model.anchors.size(); ++i) {
+        rigid.middleRows<3>(3 * i) = model.anchors(i) * rigid_rows(shape.segment<3>(3 * i));
+        gap.segment<3>(3 * i) *= model.anchors(i);
+    }
+    system.matrix.topLeftCorner(count, count) += model.anchored;
+    system.matrix.topRightCorner(count, 6).noalias() += model.modes.transpose() * rigid;
+    system.matrix.bottomLeftCorner(6, count) = system.matrix.topRightCorner(count, 6).transpose();
+    system.right.head(count).noalias() -= model.modes.transpose() * gap;
+    for (int i = 0; i < model.anchors.size(); ++i) {
+        const Eigen::Matrix<double, 3, 6> rows = rigid_rows(shape.segment<3>(3 * i));
+        system.matrix.bottomRightCorner<6, 6>() += rows.transpose() * rigid.middleRows<3>(3 * i);
+        system.right.tail<6>() -= rows.transpose() * gap.segment<3>(3 * i);
+    }
+}
+
+//! Turn and move \p pose by a small motion given in its own frame.
+void move(BentPose& pose, const Eigen::Matrix<double, 6, 1>& motion)
+{
+    const Vec3 turn = motion.tail<3>();
+    const Eigen::Matrix3d rotation = Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()).toRotationMatrix();
+    pose.origin += pose.axes * motion.head<3>();
+    pose.axes *= rotation;
+}
+
+//! Where the points belong, in the frame of \p pose.
+Vector places_of(const Model& model, const BentElement& e, const BentPose& pose, const std::array<Vec2, 4>& flat)
+{
+    expects(model.mean.size() == static_cast<Eigen::Index>(3 * (e.points.size() + 4)), "settle: one sheet for all");
+    return local_points(e, pose, flat);
+}
+
+void settle_element(const Model& model, const BentElement& e, const std::array<Vec2, 4>& flat, BentPose& pose)
+{
+    constexpr int iterations = 8;
+    const int count = static_cast<int>(model.modes.cols());
+    for (int iteration = 0; iteration < iterations; ++iteration) {
+        const Vector shape = model.mean + model.modes * pose.weights;
+        System system{Matrix::Zero(count + 6, count + 6), Vector::Zero(count + 6)};
+        add_segments(model, shape, system);
+        add_anchors(model, shape, places_of(model, e, pose, flat), system);
+        system.matrix.diagonal().array() += 1e-9 * system.matrix.diagonal().maxCoeff();
+        const Vector step = system.matrix.ldlt().solve(system.right);
+        pose.weights += step.head(count);
+        move(pose, step.tail<6>());
+    }
+}
+
+//! The modes of the normals: what goes with the weights, by least squares over all elements.
+Matrix normal_model(const BentSurface& bent, const std::vector<BentPose>& poses)
+{
+    const int count = static_cast<int>(poses.front().weights.size());
+    const int elements = static_cast<int>(poses.size());
+    Matrix normals(3 * bent.sheet.points.size(), elements);
+    Matrix weights(count + 1, elements);
+    for (int f = 0; f < elements; ++f) {
+        weights.col(f) << 1, poses[f].weights;
+        for (std::size_t i = 0; i < bent.sheet.points.size(); ++i) {
+            normals.col(f).segment<3>(static_cast<int>(3 * i)) =
+                poses[f].axes.transpose() * bent.elements[f].normals[i];
+        }
+    }
+    Matrix square = weights * weights.transpose();
+    square.diagonal().array() += 1e-6 * square.diagonal().maxCoeff();
+    return square.ldlt().solve(weights * normals.transpose()).transpose();
+}
+
+//! Replace points and normals of every element by what the modes say.
+void adopt(BentSurface& bent, const Model& model, const BendingModes& modes, SettleReport& report)
+{
+    const Matrix normals = normal_model(bent, modes.poses);
+    const std::array<Vec2, 4> flat = {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
+    for (std::size_t f = 0; f < bent.elements.size(); ++f) {
+        BentElement& e = bent.elements[f];
+        const BentPose& pose = modes.poses[f];
+        const Vector shape = model.mean + model.modes * pose.weights;
+        const Vector turned = normals.col(0) + normals.rightCols(pose.weights.size()) * pose.weights;
+        const auto at = [&](int i) -> Vec3 { return pose.origin + pose.axes * shape.segment<3>(3 * i); };
+        const int count = static_cast<int>(e.points.size());
+        for (int i = 0; i < count; ++i) {
+            report.max_shift_mm = std::max(report.max_shift_mm, (at(i) - e.points[i]).norm());
+            e.points[i] = at(i);
+            e.normals[i] = pose.axes * turned.segment<3>(3 * i);
+        }
+        double rim = 0;
+        for (std::size_t i = 0; i < bent.sheet.rim; ++i) {
+            rim += (e.points[(i + 1) % bent.sheet.rim] - e.points[i]).norm();
+        }
+        report.max_rim_distortion = std::max(report.max_rim_distortion, std::abs(rim / model.rim - 1));
+        for (int k = 0; k < 4; ++k) {
+            const Vec3 vertex = bent_position(e.patch, e.patch.to_unit.inverse() * flat[k]);
+            report.max_corner_error_mm = std::max(report.max_corner_error_mm, (at(count + k) - vertex).norm());
+        }
+    }
+}
+
+} // namespace
+
+BendingModes settle(BentSurface& bent, const Element& element, const HookParameters& hooks, int count,
+                    SettleReport* report)
+{
+    BendingModes modes = aligned_elements(bent);
+    const std::array<Vec2, 4> flat = flat_corners(element);
+    Matrix data(3 * (bent.sheet.points.size() + 4), bent.elements.size());
+    for (std::size_t f = 0; f < bent.elements.size(); ++f) {
+        data.col(static_cast<int>(f)) = local_points(bent.elements[f], modes.poses[f], flat);
+    }
+    Model model{find_segments(bent.sheet, element), rim_length(bent.sheet), find_anchors(bent.sheet, element, hooks),
+                data.rowwise().mean(), {}, {}, {}};
+    data.colwise() -= model.mean;
+    model.modes = principal_directions(data, count);
+    finish(model);
+    for_each_in_two_threads(bent.elements.size(), [&](std::size_t f) {
+        modes.poses[f].weights = model.modes.transpose() * data.col(static_cast<int>(f));
+        settle_element(model, bent.elements[f], flat, modes.poses[f]);
+    });
+    SettleReport measured;
+    adopt(bent, model, modes, measured);
+    const Eigen::Index rows = 3 * static_cast<Eigen::Index>(bent.sheet.points.size());
+    modes.mean = model.mean.head(rows);
+    modes.modes = model.modes.topRows(rows);
+    if (report != nullptr) {
+        *report = measured;
+    }
+    return modes;
+}
+
+} // namespace rhombloom

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "exporters/preview_model.h"
+#include "exporters/preview_steps.h"
+
+namespace rhombloom {
+
+struct PackedPreview
+{
+    std::string data;
+    double max_error_mm = 0; //!< of the points that the page computes
+};
+
+//! \brief Model and steps as the viewer reads them (templates/viewer.js).
+//! \details zlib-compressed and base64-encoded: 4 bytes with the length of a JSON header, the header, then whole numbers
+//! in arrays whose lowest bytes come first, then all second bytes and so on.
+PackedPreview packed_preview(const PreviewModel& model, const PreviewSteps& steps, const Element& element,
+                             const PreviewOptions& options);
+
+std::string base64(const std::string& bytes);
+
+} // namespace rhombloom
