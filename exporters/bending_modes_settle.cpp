@@ -104,6 +104,17 @@ void finish(Model& model)
     model.anchored = model.modes.transpose() * weighted;
 }
 
+//! The first of \p directions, without those along which no element differs by a micrometre.
+Matrix needed(const Matrix& directions, const Matrix& data)
+{
+    const Matrix weights = directions.transpose() * data;
+    Eigen::Index count = 0;
+    while (count < weights.rows() && weights.row(count).cwiseAbs().maxCoeff() > 1e-3) {
+        ++count;
+    }
+    return directions.leftCols(count);
+}
+
 //! Normal equations of one Gauss-Newton step in the weights and, last, translation and rotation in the own frame.
 struct System
 {
@@ -260,7 +271,7 @@ BendingModes settle(BentSurface& bent, const Element& element, const HookParamet
     Model model{find_segments(bent.sheet, element), rim_length(bent.sheet), find_anchors(bent.sheet, element, hooks),
                 data.rowwise().mean(), {}, {}, {}};
     data.colwise() -= model.mean;
-    model.modes = principal_directions(data, count);
+    model.modes = needed(principal_directions(data, count), data);
     finish(model);
     for_each_in_two_threads(bent.elements.size(), [&](std::size_t f) {
         modes.poses[f].weights = model.modes.transpose() * data.col(static_cast<int>(f));

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "exporters/bending_modes.h"
@@ -74,14 +75,26 @@ LocalShapes local_shapes(const PreviewModel& model, const BendingModes& modes)
     return shapes;
 }
 
-SolidElement mean_shape(const LocalShapes& shapes)
+//! What goes with 1 and with each weight, by least squares over all elements: columns mean, mode 1, mode 2, ...
+LocalShapes linear_model(const LocalShapes& shapes, const BendingModes& modes)
 {
-    const Eigen::VectorXd points = shapes.points.rowwise().mean();
-    const Eigen::VectorXd normals = shapes.normals.rowwise().mean();
+    Eigen::MatrixXd weights(modes.modes.cols() + 1, shapes.points.cols());
+    for (int f = 0; f < weights.cols(); ++f) {
+        weights.col(f) << 1, modes.poses[f].weights;
+    }
+    Eigen::MatrixXd square = weights * weights.transpose();
+    square.diagonal().array() += 1e-9 * square.diagonal().maxCoeff();
+    const Eigen::LDLT<Eigen::MatrixXd> factor(square);
+    return {factor.solve(weights * shapes.points.transpose()).transpose(),
+            factor.solve(weights * shapes.normals.transpose()).transpose()};
+}
+
+SolidElement mean_shape(const LocalShapes& model)
+{
     SolidElement mean;
-    for (int i = 0; i < points.size(); i += 3) {
-        mean.points.push_back(points.segment<3>(i));
-        mean.normals.push_back(normals.segment<3>(i).normalized());
+    for (int i = 0; i < model.points.rows(); i += 3) {
+        mean.points.push_back(model.points.col(0).segment<3>(i));
+        mean.normals.push_back(model.normals.col(0).segment<3>(i).normalized());
     }
     return mean;
 }
@@ -129,19 +142,15 @@ struct Target
     int decimals = 0;
 };
 
-//! Mode \p k as a target: what goes with its weight, by linear regression over all elements. The file's weights are at
-//! most about 10, in steps that move no point by more than the grid's.
-Target mode_target(const BendingModes& modes, const LocalShapes& shapes, int k, const Grid& grid)
+//! Mode \p k as a target. The file's weights are at most about 10, in steps that move no point by more than the grid's.
+Target mode_target(const BendingModes& modes, const LocalShapes& model, int k, const Grid& grid)
 {
-    Eigen::VectorXd weights(shapes.points.cols());
-    for (int f = 0; f < weights.size(); ++f) {
-        weights(f) = modes.poses[f].weights(k);
+    double largest = 1e-9;
+    for (const BentPose& pose : modes.poses) {
+        largest = std::max(largest, std::abs(pose.weights(k)));
     }
-    const double largest = std::max(weights.cwiseAbs().maxCoeff(), 1e-9);
-    // The modes' weights are uncorrelated and have mean zero: each mode is its own regression.
-    const Eigen::VectorXd share = weights * (largest / std::max(weights.squaredNorm(), 1e-18));
-    const Eigen::VectorXd points = shapes.points * share;
-    const Eigen::VectorXd normals = shapes.normals * share;
+    const Eigen::VectorXd points = largest * model.points.col(k + 1);
+    const Eigen::VectorXd normals = largest * model.normals.col(k + 1);
     const Eigen::Map<const Deltas> moves(points.data(), 3, points.size() / 3);
     const Eigen::Map<const Deltas> turns(normals.data(), 3, normals.size() / 3);
     const double steps = std::max(1.0, std::ceil(std::sqrt(moves.colwise().squaredNorm().maxCoeff()) / grid.step));
@@ -150,7 +159,7 @@ Target mode_target(const BendingModes& modes, const LocalShapes& shapes, int k, 
     target.per_weight = top / largest;
     target.decimals = steps > top ? static_cast<int>(std::ceil(std::log10(steps / top))) : 0;
     target.points = (moves / (top * grid.unit)).array().round();
-    if (turns.cwiseAbs().maxCoeff() > 0.03) {
+    if (turns.cwiseAbs().maxCoeff() > 0.12) {
         target.normals = turns / top;
     }
     return target;
@@ -413,7 +422,7 @@ CompressedPreview write(const PreviewModel& model, const PreviewOptions& options
 Expected<CompressedPreview> modes_glb(const PreviewModel& model, const PreviewOptions& options)
 {
     const BendingModes& modes = model.modes;
-    const LocalShapes shapes = local_shapes(model, modes);
+    const LocalShapes shapes = linear_model(local_shapes(model, modes), modes);
     const SolidElement mean = mean_shape(shapes);
     const Grid grid = make_grid(options.tolerance_mm, flat_reach(model, mean));
     const Expected<DracoStream> base = compressed_base(model, mean, grid);
