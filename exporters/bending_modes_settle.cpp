@@ -7,8 +7,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "core/form/parallel.h"
 #include "exporters/bent_element_hooks.h"
-#include "exporters/bent_element_threads.h"
 
 namespace rhombloom {
 
@@ -257,6 +257,20 @@ void adopt(BentSurface& bent, const Model& model, const BendingModes& modes, Set
     }
 }
 
+//! The 99th percentile of |bent/flat - 1| over all segments of all elements.
+double p99_distortion(const BentSurface& bent, const Model& model)
+{
+    std::vector<double> all;
+    for (const BentElement& e : bent.elements) {
+        for (const Segment& s : model.segments) {
+            all.push_back(std::abs((e.points[s.a] - e.points[s.b]).norm() / s.length - 1));
+        }
+    }
+    const auto p99 = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 99 / 100);
+    std::nth_element(all.begin(), p99, all.end());
+    return *p99;
+}
+
 } // namespace
 
 BendingModes settle(BentSurface& bent, const Element& element, const HookParameters& hooks, int count,
@@ -268,17 +282,24 @@ BendingModes settle(BentSurface& bent, const Element& element, const HookParamet
     for (std::size_t f = 0; f < bent.elements.size(); ++f) {
         data.col(static_cast<int>(f)) = local_points(bent.elements[f], modes.poses[f], flat);
     }
-    Model model{find_segments(bent.sheet, element), rim_length(bent.sheet), find_anchors(bent.sheet, element, hooks),
-                data.rowwise().mean(), {}, {}, {}};
+    Model model{find_segments(bent.sheet, element),
+                rim_length(bent.sheet),
+                find_anchors(bent.sheet, element, hooks),
+                data.rowwise().mean(),
+                {},
+                {},
+                {}};
     data.colwise() -= model.mean;
     model.modes = needed(principal_directions(data, count), data);
     finish(model);
-    for_each_in_two_threads(bent.elements.size(), [&](std::size_t f) {
-        modes.poses[f].weights = model.modes.transpose() * data.col(static_cast<int>(f));
+    parallel_tasks(default_threads(), static_cast<int>(bent.elements.size()), [&](int f) {
+        modes.poses[f].weights = model.modes.transpose() * data.col(f);
         settle_element(model, bent.elements[f], flat, modes.poses[f]);
     });
     SettleReport measured;
+    measured.p99_before = p99_distortion(bent, model);
     adopt(bent, model, modes, measured);
+    measured.p99_after = p99_distortion(bent, model);
     const Eigen::Index rows = 3 * static_cast<Eigen::Index>(bent.sheet.points.size());
     modes.mean = model.mean.head(rows);
     modes.modes = model.modes.topRows(rows);

@@ -9,6 +9,8 @@ struct SettleReport
     double max_shift_mm = 0;        //!< of a point by settling
     double max_corner_error_mm = 0; //!< of a corner to its vertex
     double max_rim_distortion = 0;  //!< |bent/flat - 1| of a whole outline
+    double p99_before = 0;          //!< |bent/flat - 1| of segments, as the elements came
+    double p99_after = 0;           //!< and settled
 };
 
 //! \brief Let the elements of \p bent settle in shapes that \p count bending modes describe exactly.

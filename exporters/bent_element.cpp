@@ -12,7 +12,6 @@
 #include "exporters/bent_element_hooks.h"
 #include "exporters/bent_element_relax.h"
 #include "exporters/bent_element_report.h"
-#include "exporters/bent_element_threads.h"
 
 namespace rhombloom {
 
@@ -166,10 +165,10 @@ void bend_all(const Context& context, const HookParameters& hooks, const std::ve
     const SheetMechanics mechanics = sheet_mechanics(context.element, hooks, mean);
     const Representatives like = representatives(corners, mean, most_representatives, 1e-4 * context.element.la);
     std::vector<BentPatch> solved(like.chosen.size());
-    for_each_in_two_threads(solved.size(), [&](std::size_t i) {
+    parallel_tasks(default_threads(), static_cast<int>(solved.size()), [&](int i) {
         solved[i] = bend(mechanics, corners[like.chosen[i]], mechanics.mean, {100, 1e-5});
     });
-    for_each_in_two_threads(faces.size(), [&](std::size_t i) {
+    parallel_tasks(default_threads(), static_cast<int>(faces.size()), [&](int i) {
         const BentPatch& start = solved[like.of[i]];
         const bool same = squared_distance(corners[i], corners[like.chosen[like.of[i]]]) < 1e-20;
         elements[faces[i]].patch = outside(frames[i], same ? start : bend(mechanics, corners[i], start, {20, 1e-4}));
@@ -274,17 +273,16 @@ std::array<int, 4> piece_corners(const Surface& surface, Face f)
     return {at(1), at(0), at(3), at(2)};
 }
 
-Expected<BentSurface> bent_surface(const Surface& surface, const Element& element, const FlatSheetOptions& options)
+Expected<BentSurface> bent_surface(const Surface& surface, const Element& element)
 {
-    return bent_surface(surface, element, hook_parameters(element), options);
+    return bent_surface(surface, element, hook_parameters(element));
 }
 
-Expected<BentSurface> bent_surface(const Surface& surface, const Element& element, const HookParameters& hooks,
-                                   const FlatSheetOptions& options)
+Expected<BentSurface> bent_surface(const Surface& surface, const Element& element, const HookParameters& hooks)
 {
     std::vector<int> faces(surface.n_faces());
     std::iota(faces.begin(), faces.end(), 0);
-    Expected<BentSurface> bent = bent_faces(surface, element, hooks, faces, options);
+    Expected<BentSurface> bent = bent_faces(surface, element, hooks, faces);
     if (bent) {
         bent->report = measure_bending(*bent, surface, element, hooks);
     }
@@ -292,13 +290,13 @@ Expected<BentSurface> bent_surface(const Surface& surface, const Element& elemen
 }
 
 Expected<BentSurface> bent_faces(const Surface& surface, const Element& element, const HookParameters& hooks,
-                                 const std::vector<int>& faces, const FlatSheetOptions& options)
+                                 const std::vector<int>& faces)
 {
     const Expected<Path> outline = element_outline(hooks);
     if (!outline) {
         return tl::make_unexpected(outline.error());
     }
-    const FlatSheet sheet = flat_sheet(*outline, options);
+    const FlatSheet sheet = flat_sheet(*outline, sheet_options(element));
     const Context context{surface,
                           element,
                           sheet,
@@ -308,7 +306,7 @@ Expected<BentSurface> bent_faces(const Surface& surface, const Element& element,
     BentSurface bent{sheet, unbent_elements(surface), {}};
     bend_all(context, hooks, with_neighbours(context, faces), bent.elements);
     const SheetRelaxation relaxation(sheet, element, hooks, context.hooks);
-    for_each_in_two_threads(faces.size(), [&](std::size_t i) {
+    parallel_tasks(default_threads(), static_cast<int>(faces.size()), [&](int i) {
         shape_element(context, bent.elements, relaxation, faces[i], bent.elements[faces[i]]);
     });
     return bent;

@@ -39,16 +39,14 @@ struct BentSurface
 //! \details The corners lie on the vertices. A finger's zone is measured from the node along the shared edge and laid
 //! on the neighbour's sheet at the same distances; fingers at open boundaries continue their own sheet.
 //! Deterministic; uses two threads. Refuses what element_outline() refuses.
-Expected<BentSurface> bent_surface(const Surface& surface, const Element& element,
-                                   const FlatSheetOptions& options = {});
+Expected<BentSurface> bent_surface(const Surface& surface, const Element& element);
 
 //! \brief The same for hooks that were changed.
-Expected<BentSurface> bent_surface(const Surface& surface, const Element& element, const HookParameters& hooks,
-                                   const FlatSheetOptions& options = {});
+Expected<BentSurface> bent_surface(const Surface& surface, const Element& element, const HookParameters& hooks);
 
 //! \brief Only the elements \p faces; all others are left without patch and points. No report.
 Expected<BentSurface> bent_faces(const Surface& surface, const Element& element, const HookParameters& hooks,
-                                 const std::vector<int>& faces, const FlatSheetOptions& options = {});
+                                 const std::vector<int>& faces);
 
 //! \brief The piece's corners v0..v3 as vertices of face \p f, so that v0-v1 is a long side and v0 acute.
 std::array<int, 4> piece_corners(const Surface& surface, Face f);

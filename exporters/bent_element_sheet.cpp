@@ -239,6 +239,13 @@ void make_delaunay(const std::vector<Vec2>& points, std::vector<Triangle>& trian
 
 } // namespace
 
+FlatSheetOptions sheet_options(const Element& element)
+{
+    const FlatSheetOptions usual;
+    const double share = element.la / 80;
+    return {share * usual.tolerance, share * usual.rim_step, share * usual.along, share * usual.across};
+}
+
 FlatSheet flat_sheet(const Path& outline, const FlatSheetOptions& options)
 {
     FlatSheet sheet;

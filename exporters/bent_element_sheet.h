@@ -17,11 +17,14 @@ struct FlatSheet
 
 struct FlatSheetOptions
 {
-    double tolerance = 0.25; //!< mm, of the rim to the true outline
-    double rim_step = 9;    //!< mm, longest segment of the rim
-    double along = 12;      //!< mm, spacing of the inner points along the long sides, the direction that bends
-    double across = 22;     //!< mm, and across them
+    double tolerance = 0.35; //!< mm, of the rim to the true outline
+    double rim_step = 12;    //!< mm, longest segment of the rim
+    double along = 12;       //!< mm, spacing of the inner points along the long sides, the direction that bends
+    double across = 22;      //!< mm, and across them
 };
+
+//! \brief The same share of any element: as above for one whose short side is 80 mm long.
+FlatSheetOptions sheet_options(const Element& element);
 
 //! \brief Triangulate \p outline with inner points so fine that bending shows no corners.
 //! \pre the outline is simple and counter-clockwise (element_outline() guarantees it).

@@ -1,8 +1,10 @@
 #include "exporters/preview.h"
 
 #include <algorithm>
-#include <future>
+#include <array>
+#include <functional>
 
+#include "core/form/parallel.h"
 #include "core/text.h"
 #include "exporters/bending_modes_settle.h"
 #include "exporters/bent_element_report.h"
@@ -68,16 +70,28 @@ void part(BentSurface all, BendingModes modes, PreviewModel& model, PreviewSteps
     model.modes = std::move(modes);
 }
 
-//! \brief Settle all elements in few bending modes; when that would bend outlines or corners out of true, leave the
-//! shapes as they are and describe them as well as modes can.
+//! Outlines and corners hold their limits with something to spare, and lengths hardly suffer.
+bool as_true(const SettleReport& report)
+{
+    return report.max_rim_distortion < 0.009 && report.max_corner_error_mm < 0.09 &&
+           report.p99_after < std::max(0.01, 1.25 * report.p99_before);
+}
+
+//! \brief Few modes describe regular shapes as they are. Otherwise settle all elements in few modes; when that would
+//! bend outlines, corners or lengths out of true, leave the shapes and describe them as well as modes can.
 PreviewEncoding choose_modes(PreviewModel& model, PreviewSteps& steps, const Element& element,
                              const HookParameters& hooks, const PreviewOptions& options)
 {
+    const int most = affordable_modes(model.bent.elements.size(), model.bent.sheet.points.size());
     BentSurface all = together(model.bent, steps);
+    BendingModes modes = bending_modes(all, 0.2 * options.tolerance_mm, most);
+    if (error_mm(modes, all) < 0.2 * options.tolerance_mm) {
+        part(std::move(all), std::move(modes), model, steps);
+        return PreviewEncoding::BendingModes;
+    }
     SettleReport report;
-    BendingModes modes = settle(all, element, hooks, affordable_modes(all.elements.size(), all.sheet.points.size()),
-                                &report);
-    if (report.max_rim_distortion < 0.009 && report.max_corner_error_mm < 0.09) {
+    modes = settle(all, element, hooks, most, &report);
+    if (as_true(report)) {
         part(std::move(all), std::move(modes), model, steps);
         return PreviewEncoding::BendingModes;
     }
@@ -146,16 +160,21 @@ Expected<PreviewFiles> preview_files(const Replay& replay, const AssemblyPlan& p
     if (!steps) {
         return tl::make_unexpected(steps.error());
     }
-    PreviewModel model{std::move(*bent), {}, element_labels(replay.surface, plan), replay.surface.components,
+    PreviewModel model{std::move(*bent),  {},           element_labels(replay.surface, plan), replay.surface.components,
                        element.thickness, options.title};
     PreviewEncoding encoding = choose_modes(model, *steps, element, hooks, options);
     model.bent.report = measure_bending(model.bent, replay.surface, element, hooks);
-    // The picture needs no other file: it is taken beside them.
-    auto picture = std::async(std::launch::async, [&] { return picture_png(model.bent, thumbnail_options(options)); });
-    const Expected<CompressedPreview> compressed = smallest_glb(model, options, encoding);
-    Expected<PreviewPage> page = preview_page(model, *steps, element, options);
-    std::string plain = plain_glb(model, options);
-    Expected<std::string> png = picture.get();
+    Expected<CompressedPreview> compressed;
+    Expected<PreviewPage> page;
+    Expected<std::string> png;
+    std::string plain;
+    const std::array<std::function<void()>, 4> files = {
+        [&] { png = picture_png(model.bent, thumbnail_options(options)); },
+        [&] { compressed = smallest_glb(model, options, encoding); },
+        [&] { page = preview_page(model, *steps, element, options); },
+        [&] { plain = plain_glb(model, options); },
+    };
+    parallel_tasks(default_threads(), static_cast<int>(files.size()), [&](int k) { files[k](); });
     if (!compressed) {
         return tl::make_unexpected(compressed.error());
     }

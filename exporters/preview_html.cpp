@@ -86,8 +86,7 @@ Expected<PreviewPage> preview_page(const PreviewModel& model, const PreviewSteps
                                    const PreviewOptions& options)
 {
     PackedPreview packed = packed_preview(model, steps, element, options);
-    const Expected<std::string> html =
-        assembled(model.title.empty() ? "rhombloom preview" : model.title, packed.data);
+    const Expected<std::string> html = assembled(model.title.empty() ? "rhombloom preview" : model.title, packed.data);
     if (!html) {
         return tl::make_unexpected(html.error());
     }

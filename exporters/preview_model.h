@@ -19,7 +19,7 @@ struct ElementLabel
 struct PreviewModel
 {
     BentSurface bent;
-    BendingModes modes; //!< of the bent elements
+    BendingModes modes;               //!< of the bent elements
     std::vector<ElementLabel> labels; //!< by face number
     std::vector<std::string> components;
     double thickness = 0;

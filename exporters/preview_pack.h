@@ -12,8 +12,8 @@ struct PackedPreview
 };
 
 //! \brief Model and steps as the viewer reads them (templates/viewer.js).
-//! \details zlib-compressed and base64-encoded: 4 bytes with the length of a JSON header, the header, then whole numbers
-//! in arrays whose lowest bytes come first, then all second bytes and so on.
+//! \details zlib-compressed and base64-encoded: 4 bytes with the length of a JSON header, the header, then whole
+//! numbers in arrays whose lowest bytes come first, then all second bytes and so on.
 PackedPreview packed_preview(const PreviewModel& model, const PreviewSteps& steps, const Element& element,
                              const PreviewOptions& options);
 

@@ -318,7 +318,7 @@ Expected<std::string> picture_png(const BentSurface& bent, const PictureOptions&
     parallel_tasks(default_threads(), options.height, [&](int y) {
         for (int x = 0; x < options.width; ++x) {
             const auto p = pixel(shading, x, y);
-            std::copy(p.begin(), p.end(), rgba.begin() + (static_cast<std::ptrdiff_t>(y) * options.width + x) * 4);
+            std::copy(p.begin(), p.end(), rgba.begin() + static_cast<std::ptrdiff_t>((y * options.width + x) * 4));
         }
     });
     return write_png(rgba, options.width, options.height);

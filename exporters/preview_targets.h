@@ -1,0 +1,45 @@
+#pragma once
+
+#include "exporters/bent_element_solid.h"
+#include "exporters/preview_model.h"
+
+namespace rhombloom {
+
+using Deltas = Eigen::Matrix3Xd; //!< one column per point
+
+//! \brief How finely numbers are written.
+struct Grid
+{
+    double unit = 1e-3;    //!< mm per unit below the groups
+    double step = 5e-3;    //!< mm, of positions and of what a weight's last digit moves
+    int turn_decimals = 4; //!< of quaternions
+};
+
+//! A morph target: what is added to points (units) and normals for weight 1, and how weights are rounded.
+struct Target
+{
+    Deltas points;
+    Deltas normals;        //!< empty: none worth storing
+    double per_weight = 1; //!< weight of the file per weight of the mode
+    int decimals = 0;
+};
+
+//! \brief The element with its thickness as mean and morph targets, in units of the grid: one per mode, and a last one
+//! that lays it flat. No number is written more finely than \p step_mm asks for.
+struct MorphedElement
+{
+    Grid grid;
+    SolidElement mean; //!< mm
+    std::vector<Target> targets;
+};
+
+MorphedElement morphed_element(const PreviewModel& model, double step_mm);
+
+//! \brief Write all targets in the order \p order of the points; the primitive's list of targets.
+nlohmann::ordered_json add_targets(Glb& glb, const std::vector<Target>& targets,
+                                   const std::vector<std::uint16_t>& order);
+
+//! \brief A number without ".0" when it is whole: lists of them are most of the file.
+nlohmann::ordered_json short_number(double value);
+
+} // namespace rhombloom
