@@ -1,5 +1,9 @@
 #include "exporters/booklet.h"
 
+#include <algorithm>
+#include <functional>
+
+#include "core/form/parallel.h"
 #include "exporters/booklet_pages.h"
 #include "exporters/pdf_finish.h"
 #include "exporters/plan_file.h"
@@ -10,66 +14,69 @@ namespace {
 
 const std::string font_file = std::string(RHOMBLOOM_TEMPLATES) + "/fonts/DejaVuSansCondensed.ttf";
 
+//! A page to be drawn.
+struct Sheet
+{
+    std::string label;
+    int section = -1;
+    std::function<void(PdfCanvas&)> draw;
+};
+
 //! One booklet being written.
 struct Writer
 {
-    PdfCanvas& canvas;
     const BookletSources& sources;
     const BookletOptions& options;
     std::string title;
-    int insets = 0;
+    const StepPictures& pictures;
+    std::vector<Sheet> sheets = {};
 
-    template <class Draw>
-    void page(const std::string& label, const Draw& draw) const
+    void add(int section, std::function<void(PdfCanvas&)> draw)
     {
-        canvas.start_page(label);
-        draw();
-        canvas.finish_page();
+        const std::size_t number = sheets.size() + 1;
+        sheets.push_back({number == 1 ? "Cover" : std::to_string(number), section, std::move(draw)});
     }
 
-    void front() const
+    void add_steps(int chapter, int first, int end)
     {
-        page("Cover", [&] { draw_cover(canvas, sources, title, options); });
-        page("2", [&] { draw_how_to_read(canvas, sources); });
-        page("3", [&] { draw_parts(canvas, sources, options); });
-        page("4", [&] { draw_joint(canvas, sources); });
-    }
-
-    void chapter(int index, StepDrawer& drawer) const
-    {
-        const Chapter& c = sources.layout.chapters[index];
-        int parent = 0;
-        page(std::to_string(c.page), [&] {
-            draw_chapter(canvas, sources, index);
-            parent = canvas.bookmark(0, c.title, chapter_destination(index));
-        });
-        const int cells = c.rows * c.columns;
-        for (int first = 0; first < c.count; first += cells) {
-            const int from = c.first + first;
-            const int to = std::min(from + cells, c.first + c.count);
-            const int number = sources.layout.places[from].page;
-            page(std::to_string(number), [&] {
-                draw_page_frame(canvas, sources, index, from, to - 1, number);
-                for (int k = from; k < to; ++k) {
-                    canvas.destination(step_destination(k));
-                    canvas.bookmark(parent, "Step " + std::to_string(k + 1), step_destination(k));
-                    canvas.tagged("Sect", [&] { drawer.draw(k); });
-                }
-            });
-        }
-    }
-
-    void all()
-    {
-        StepDrawer drawer(canvas, sources);
-        canvas.tagged("Document", [&] {
-            front();
-            for (int c = 0; c < static_cast<int>(sources.layout.chapters.size()); ++c) {
-                canvas.tagged("Sect", [&] { chapter(c, drawer); });
+        add(chapter, [this, chapter, first, end](PdfCanvas& canvas) {
+            draw_page_frame(canvas, sources, chapter, first, end - 1, sources.layout.places[first].page);
+            for (int k = first; k < end; ++k) {
+                canvas.bookmark(1, "Step " + std::to_string(k + 1), sources.layout.places[k].box.min.y());
             }
-            page(std::to_string(sources.layout.last_page), [&] { draw_last_page(canvas, sources); });
+            pictures.draw(canvas, first, end);
         });
-        insets = drawer.insets();
+    }
+
+    void add_all()
+    {
+        add(-1, [this](PdfCanvas& canvas) { draw_cover(canvas, sources, title, options); });
+        add(-1, [this](PdfCanvas& canvas) { draw_how_to_read(canvas, sources); });
+        add(-1, [this](PdfCanvas& canvas) { draw_parts(canvas, sources, options); });
+        add(-1, [this](PdfCanvas& canvas) { draw_joint(canvas, sources); });
+        for (int index = 0; index < static_cast<int>(sources.layout.chapters.size()); ++index) {
+            const Chapter& c = sources.layout.chapters[index];
+            add(index, [this, index](PdfCanvas& canvas) { draw_chapter(canvas, sources, index); });
+            const int cells = c.rows * c.columns;
+            for (int first = c.first; first < c.first + c.count; first += cells) {
+                add_steps(index, first, std::min(first + cells, c.first + c.count));
+            }
+        }
+        add(-1, [this](PdfCanvas& canvas) { draw_last_page(canvas, sources); });
+    }
+
+    //! Pages know nothing of each other.
+    std::vector<PdfPage> drawn(const PdfFont& font) const
+    {
+        std::vector<PdfPage> pages(sheets.size());
+        parallel_tasks(default_threads(), static_cast<int>(sheets.size()), [&](int i) {
+            PdfCanvas canvas(font);
+            sheets[i].draw(canvas);
+            pages[i] = canvas.take();
+            pages[i].label = sheets[i].label;
+            pages[i].section = sheets[i].section;
+        });
+        return pages;
     }
 };
 
@@ -88,20 +95,25 @@ Expected<BookletFiles> booklet_files(const Design& design, const Replay& replay,
 {
     const BookletLayout layout = booklet_layout(replay, plan, options);
     const BookletSources sources{replay, design.element, plan, layout, piece_contour(design.element)};
-    PdfCanvas canvas(layout.paper.width, layout.paper.height, font_file);
-    Writer writer{canvas, sources, options, booklet_title(design, options)};
-    writer.all();
-    const Expected<std::string> drawn = canvas.finish();
-    if (!drawn) {
-        return tl::make_unexpected(drawn.error());
+    const auto font = PdfFont::load(font_file);
+    if (!font) {
+        return tl::make_unexpected(font.error());
+    }
+    const StepPictures pictures(**font, sources);
+    Writer writer{sources, options, booklet_title(design, options), pictures};
+    writer.add_all();
+    const Expected<std::string> pdf = pdf_document(**font, writer.drawn(**font), layout.paper, {writer.title, "en"});
+    if (!pdf) {
+        return tl::make_unexpected(pdf.error());
     }
     BookletFiles result;
-    const std::string pdf = finish_pdf(*drawn, {writer.title, "en", canvas.alternatives()});
-    result.files["booklet-imposed.pdf"] = impose_pdf(pdf, options.paper, writer.title);
-    result.files["booklet.pdf"] = pdf;
+    result.files["booklet-imposed.pdf"] = impose_pdf(*pdf, options.paper, writer.title);
+    result.files["booklet.pdf"] = *pdf;
     result.files["plan.json"] = plan_json(replay, design.element, plan, layout);
+    const auto insets = std::count_if(layout.places.begin(), layout.places.end(),
+                                      [](const StepPlace& place) { return place.inset.has_value(); });
     result.report = {layout.last_page, static_cast<int>(layout.chapters.size()), plan.scorecard.view_turns,
-                     writer.insets};
+                     static_cast<int>(insets)};
     return result;
 }
 

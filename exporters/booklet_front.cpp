@@ -122,9 +122,8 @@ void draw_contents(PdfCanvas& canvas, const BookletSources& sources, double y)
         const std::string line = std::to_string(c + 1) + "  " + chapters[c].title + ": " +
                                  plural(chapters[c].count, "step") + ", page " + std::to_string(chapters[c].page);
         y += c == 0 ? 20 : leading;
-        canvas.link(chapter_destination(static_cast<int>(c)), [&] {
-            canvas.text(line, Vec2(page_margin, y), {std::min(11.0, 0.8 * leading), 0x004080, Align::Left, 0});
-        });
+        canvas.link(chapter_destination(static_cast<int>(c)), line, Vec2(page_margin, y),
+                    {std::min(11.0, 0.8 * leading), 0x004080, Align::Left, 0});
     }
 }
 

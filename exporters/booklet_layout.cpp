@@ -135,12 +135,12 @@ std::vector<Face> shown_faces(const Replay& replay, const AssemblyPlan& plan, in
     return result;
 }
 
-std::vector<int> element_names(const AssemblyPlan& plan, std::size_t final_count)
+std::vector<int> element_names(const AssemblyPlan& plan, std::size_t final_count, int before)
 {
     std::vector<int> names(final_count + plan.temporary.size(), 0);
-    for (std::size_t k = 0; k < plan.steps.size(); ++k) {
+    for (int k = 0; k < before; ++k) {
         if (plan.steps[k].kind == StepKind::Insert) {
-            names[plan.steps[k].element] = static_cast<int>(k) + 1;
+            names[plan.steps[k].element] = k + 1;
         }
     }
     return names;

@@ -60,7 +60,8 @@ void place_insets(const Replay& replay, const AssemblyPlan& plan, std::vector<St
 //! \brief The faces that some step in \p stage shows: the part of that stage's surface that is under construction.
 std::vector<Face> shown_faces(const Replay& replay, const AssemblyPlan& plan, int stage);
 
-//! \brief The number that the booklet calls each element by: its (last) insertion's step, counted from 1.
-std::vector<int> element_names(const AssemblyPlan& plan, std::size_t final_count);
+//! \brief The number that the booklet calls each element by: its last insertion's step, counted from 1.
+//! \param before only insertions before this step (0..) count; 0 for elements that are not there yet
+std::vector<int> element_names(const AssemblyPlan& plan, std::size_t final_count, int before);
 
 } // namespace rhombloom

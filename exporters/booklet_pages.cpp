@@ -60,11 +60,6 @@ std::string chapter_destination(int chapter)
     return "chapter-" + std::to_string(chapter + 1);
 }
 
-std::string step_destination(int step)
-{
-    return "step-" + std::to_string(step + 1);
-}
-
 Camera draw_model(PdfCanvas& canvas, const BookletSources& sources, const Vec2& centre, const Vec2& half, int view,
                   int marked)
 {
@@ -104,7 +99,8 @@ void draw_chapter(PdfCanvas& canvas, const BookletSources& sources, int chapter)
 {
     const Chapter& c = sources.layout.chapters[chapter];
     const PaperSize& paper = sources.layout.paper;
-    canvas.destination(chapter_destination(chapter));
+    canvas.destination(chapter_destination(chapter), 0);
+    canvas.bookmark(0, c.title, 0);
     draw_heading(canvas, std::to_string(chapter + 1) + "  " + c.title);
     canvas.tagged("P", [&] {
         canvas.text("Steps " + std::to_string(c.first + 1) + " to " + std::to_string(c.first + c.count),
@@ -154,7 +150,8 @@ void draw_last_page(PdfCanvas& canvas, const BookletSources& sources)
     std::string words = "To hang it, lead the cord through the hole where corners meet at the top, or hook the last "
                         "elements round the lamp holder. ";
     if (hatch) {
-        const std::vector<int> names = element_names(sources.plan, sources.replay.surface.n_faces());
+        const std::vector<int> names =
+            element_names(sources.plan, sources.replay.surface.n_faces(), static_cast<int>(sources.plan.steps.size()));
         words += "The red element is the bulb hatch: to reach the bulb, unhook it, and afterwards hook it in again as "
                  "step " +
                  std::to_string(sources.plan.steps.size()) + " shows (its neighbours are";

@@ -4,7 +4,7 @@
 
 namespace rhombloom {
 
-// The pages of a booklet that are not steps. Each draws one page, between start_page and finish_page.
+// The pages of a booklet that are not steps. Each draws one page.
 
 void draw_cover(PdfCanvas& canvas, const BookletSources& sources, const std::string& title,
                 const BookletOptions& options);
@@ -32,8 +32,7 @@ void draw_page_frame(PdfCanvas& canvas, const BookletSources& sources, int chapt
 Camera draw_model(PdfCanvas& canvas, const BookletSources& sources, const Vec2& centre, const Vec2& half, int view,
                   int marked = -1);
 
-//! \brief "chapter-2": where the link to a chapter leads; "step-12": to a step.
+//! \brief "chapter-2": where the link to a chapter leads.
 std::string chapter_destination(int chapter);
-std::string step_destination(int step);
 
 } // namespace rhombloom

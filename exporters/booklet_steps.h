@@ -15,20 +15,18 @@ struct BookletSources
     PieceContour contour; //!< of the element with its hooks
 };
 
-//! \brief Draws the steps of a booklet, in their order; each once.
+//! \brief The pictures of a booklet's steps.
 //! \details Steps that share a view share what does not change between them: the ghost of the target, and runs of built
-//! elements that no element of these steps comes between.
-class StepDrawer
+//! elements that no element of these steps comes between. That is drawn here; then pages may be drawn at the same time.
+class StepPictures
 {
 public:
-    StepDrawer(PdfCanvas& canvas, const BookletSources& sources);
-    ~StepDrawer();
+    //! \param font, sources must live as long as the pictures
+    StepPictures(const PdfFont& font, const BookletSources& sources);
+    ~StepPictures();
 
-    //! \brief Draw step \p k (0..) in its cell. Call with k = 0, 1, 2, ...
-    void draw(int k);
-
-    //! \brief How many steps had a magnified detail so far.
-    int insets() const;
+    //! \brief Draw steps \p first ... \p end - 1 in their cells.
+    void draw(PdfCanvas& canvas, int first, int end) const;
 
 private:
     struct State;

@@ -54,7 +54,7 @@ Line edge_line(Paint paint)
 void draw_dots(PdfCanvas& canvas, const Polygon& p, unsigned rgb)
 {
     const double size = std::sqrt(polygon_area(p));
-    const double spacing = std::clamp(0.16 * size, 2.2, 7.0);
+    const double spacing = std::clamp(std::round(0.32 * size) / 2, 2.0, 7.0);
     std::vector<std::pair<Vec2, Vec2>> rows;
     for (const double v : {0.25, 0.5, 0.75}) {
         const Vec2 a = at(p, 0.1, v);
@@ -162,9 +162,36 @@ unsigned element_tint(const Scene& scene, Face f, Paint paint)
     return mixed(colour::built_dark, colour::built_light, light);
 }
 
+namespace {
+
+bool has_dots(const Scene& scene, Face f, Paint paint)
+{
+    return flipped(scene, f) && (paint == Paint::Next || from_outside(scene, f));
+}
+
+//! The edges of a part of an element that are edges of the element.
+void add_common_edges(const Polygon& element, const Polygon& part, std::vector<Polygon>& edges)
+{
+    constexpr double same = 0.02; // points
+    for (std::size_t k = 0; k < element.size(); ++k) {
+        const Vec2 start = element[k];
+        const Vec2 along = (element[(k + 1) % element.size()] - start).normalized();
+        const auto on_edge = [&](const Vec2& x) { return std::abs(wedge(along, x - start)) < same; };
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            const Vec2& a = part[i];
+            const Vec2& b = part[(i + 1) % part.size()];
+            if (on_edge(a) && on_edge(b) && (b - a).norm() > same) {
+                edges.push_back({a, b});
+            }
+        }
+    }
+}
+
+} // namespace
+
 void draw_flip_dots(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint)
 {
-    if (flipped(scene, f) && (paint == Paint::Next || from_outside(scene, f))) {
+    if (has_dots(scene, f, paint)) {
         draw_dots(canvas, outline_of(scene, f), paint == Paint::Next ? 0xFFFFFF : colour::dot);
     }
 }
@@ -217,15 +244,21 @@ void draw_part(PdfCanvas& canvas, const Scene& scene, const Painted& painted, Pa
 {
     const Polygon p = outline_of(scene, painted.face);
     const unsigned tint = element_tint(scene, painted.face, paint);
+    std::vector<Polygon> pieces; // triangles: only whole elements are drawn as quads
+    std::vector<Polygon> edges;
     for (const Polygon& part : painted.part) {
-        canvas.clipped(part, [&] {
-            canvas.fill({p[0], p[1], p[2]}, tint);
-            canvas.fill({p[0], p[2], p[3]}, tint);
-            canvas.stroke({p[0], p[2]}, {0.4, tint, 0});
-            canvas.stroke({p[0], p[1], p[2], p[3], p[0]}, edge_line(paint));
-            draw_flip_dots(canvas, scene, painted.face, paint);
-        });
+        for (std::size_t i = 2; i < part.size(); ++i) {
+            pieces.push_back({part[0], part[i - 1], part[i]});
+        }
+        add_common_edges(p, part, edges);
     }
+    canvas.fills(pieces, tint);
+    for (const Polygon& part : painted.part) {
+        if (has_dots(scene, painted.face, paint)) {
+            canvas.clipped(part, [&] { draw_flip_dots(canvas, scene, painted.face, paint); });
+        }
+    }
+    canvas.strokes(edges, edge_line(paint));
 }
 
 void draw_joined_sides(PdfCanvas& canvas, const Scene& scene, Face f, const std::vector<int>& sides,

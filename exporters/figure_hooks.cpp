@@ -156,9 +156,8 @@ void draw_flaps(PdfCanvas& canvas, const Scene& scene, const Piece& piece, const
     const Polygon nodes = node_polygon(scene, piece.face);
     for (const auto& flap : contour.flaps[side]) {
         if (count-- > 0) {
-            const Polygon chain = mapped(nodes, flap);
-            canvas.fill(chain, element_tint(scene, piece.face, piece.paint));
-            canvas.stroke(chain, contour_line(piece.paint));
+            canvas.fill_and_stroke(mapped(nodes, flap), element_tint(scene, piece.face, piece.paint),
+                                   contour_line(piece.paint));
         }
     }
 }

@@ -1,10 +1,11 @@
 #include "exporters/pdf_canvas.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <optional>
 
-#include <cairo/cairo-ft.h>
-#include <cairo/cairo-pdf.h>
-
+#include "core/expected.h"
 #include "exporters/code_points.h"
 #include "exporters/pdf_grid.h"
 
@@ -12,266 +13,336 @@ namespace rhombloom {
 
 namespace {
 
-//! An attribute value in cairo's syntax.
-std::string quoted(const std::string& value)
+void add_integer(std::string& out, long long value)
 {
-    std::string text = "'";
-    for (const char c : value) {
-        if (c == '\'' || c == '\\') {
-            text += '\\';
+    char digits[24];
+    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+    out.append(digits, end);
+}
+
+//! Good to 1/1000, as short as it can be: "12", "-.25"; then a space.
+void add_number(std::string& out, double value)
+{
+    const long long thousandths = std::llround(value * 1000);
+    const long long size = std::abs(thousandths);
+    if (thousandths < 0) {
+        out += '-';
+    }
+    if (size >= 1000 || size == 0) {
+        add_integer(out, size / 1000);
+    }
+    if (size % 1000 != 0) {
+        const char digits[] = {static_cast<char>('0' + size / 100 % 10), static_cast<char>('0' + size / 10 % 10),
+                               static_cast<char>('0' + size % 10)};
+        out += '.';
+        out.append(digits, size % 10 != 0 ? 3 : size % 100 != 0 ? 2 : 1);
+    }
+    out += ' ';
+}
+
+//! Two bytes for each glyph, as a PDF string.
+void add_glyph(std::string& out, unsigned id)
+{
+    for (const unsigned byte : {id >> 8 & 0xFFU, id & 0xFFU}) {
+        const char c = static_cast<char>(byte);
+        if (c == '(' || c == ')' || c == '\\') {
+            out += '\\';
         }
-        text += c;
+        if (c == '\r') {
+            out += "\\r";
+        } else {
+            out += c;
+        }
     }
-    return text + "'";
-}
-
-cairo_status_t append(void* bytes, const unsigned char* data, unsigned length)
-{
-    static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
-    return CAIRO_STATUS_SUCCESS;
-}
-
-// Cairo keeps fonts for a while after their last use: the face and its library live as long as cairo's font does.
-struct FontFile
-{
-    FT_Library library = nullptr;
-    FT_Face face = nullptr;
-
-    ~FontFile()
-    {
-        FT_Done_Face(face);
-        FT_Done_FreeType(library);
-    }
-};
-
-cairo_font_face_t* load_font(const std::string& path, FT_Face& face)
-{
-    static const cairo_user_data_key_t key{};
-    auto file = std::make_unique<FontFile>();
-    if (FT_Init_FreeType(&file->library) != 0 || FT_New_Face(file->library, path.c_str(), 0, &file->face) != 0) {
-        return nullptr;
-    }
-    face = file->face;
-    cairo_font_face_t* font = cairo_ft_font_face_create_for_ft_face(face, 0);
-    cairo_font_face_set_user_data(font, &key, file.release(),
-                                  [](void* pointer) { delete static_cast<FontFile*>(pointer); });
-    return font;
 }
 
 } // namespace
 
 struct PdfCanvas::State
 {
-    std::string bytes;
-    cairo_surface_t* surface = nullptr;
-    cairo_t* page = nullptr;
-    cairo_t* cr = nullptr; // the page, or the group that is being drawn
-    FT_Face face = nullptr;
-    cairo_font_face_t* font = nullptr;
-    std::vector<std::pair<cairo_surface_t*, double>> groups;
-    std::vector<std::string> alternatives;
-    std::string problem;
-
-    void colour(unsigned rgb) const
+    //! What the content has set so far; nothing: not known, as at the start of a group.
+    struct Pen
     {
-        cairo_set_source_rgb(cr, ((rgb >> 16) & 0xFFU) / 255.0, ((rgb >> 8) & 0xFFU) / 255.0, (rgb & 0xFFU) / 255.0);
+        std::optional<unsigned> fill, line;
+        std::optional<double> width, font_size;
+        std::optional<std::pair<double, double>> dash;
+    };
+
+    const PdfFont& font;
+    PdfPage page;
+    Pen pen = {};
+    std::vector<PdfTag>* tags = &page.tags;
+
+    std::string& out() { return page.content; }
+
+    void number(double value) { add_number(out(), value); }
+    void length(double points) { number(points * pdf_units); }
+
+    void point(const Vec2& p, char op)
+    {
+        length(p.x());
+        length(p.y());
+        out() += op;
+        out() += '\n';
     }
 
-    void pen(const Line& line) const
+    void colour(unsigned rgb, const char* grey, const char* colours)
     {
-        colour(line.rgb);
-        cairo_set_line_width(cr, line.width);
-        cairo_set_dash(cr, &line.dash, line.dash > 0 ? 1 : 0, 0);
-    }
-
-    void path(const Polygon& points, bool close) const
-    {
-        cairo_new_path(cr);
-        for (const Vec2& p : on_grid(points, close)) {
-            cairo_line_to(cr, p.x(), p.y());
+        const unsigned parts[] = {rgb >> 16 & 0xFFU, rgb >> 8 & 0xFFU, rgb & 0xFFU};
+        const bool is_grey = parts[0] == parts[1] && parts[1] == parts[2];
+        for (int i = 0; i < (is_grey ? 1 : 3); ++i) {
+            number(parts[i] / 255.0);
         }
-        if (close) {
-            cairo_close_path(cr);
+        out() += is_grey ? grey : colours;
+        out() += '\n';
+    }
+
+    void use_fill(unsigned rgb)
+    {
+        if (pen.fill != rgb) {
+            pen.fill = rgb;
+            colour(rgb, "g", "rg");
         }
     }
 
-    void prepare(cairo_t* context) const
+    void use_dash(double on, double off)
     {
-        if (font == nullptr) {
+        if (pen.dash == std::pair(on, off)) {
             return;
         }
-        cairo_set_font_face(context, font);
-        cairo_font_options_t* options = cairo_font_options_create();
-        cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
-        cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
-        cairo_set_font_options(context, options);
-        cairo_font_options_destroy(options);
-        cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
-        cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+        pen.dash = {on, off};
+        out() += '[';
+        if (off > 0) {
+            length(on);
+            length(off);
+        }
+        out() += "]0 d\n";
     }
 
-    void check_glyphs(const std::string& utf8)
+    void use_line(const Line& line)
     {
-        for (const char32_t c : code_points(utf8)) {
-            if (problem.empty() && face != nullptr && FT_Get_Char_Index(face, c) == 0) {
-                problem = "the booklet's font has no character U+" + hexadecimal(c) + ", used in \"" + utf8 +
-                          "\": write it with other characters";
-            }
+        if (pen.line != line.rgb) {
+            pen.line = line.rgb;
+            colour(line.rgb, "G", "RG");
         }
+        if (pen.width != line.width) {
+            pen.width = line.width;
+            length(line.width);
+            out() += "w\n";
+        }
+        use_dash(line.dash, line.dash);
+    }
+
+    void path(const Polygon& points, bool close)
+    {
+        char op = 'm';
+        for (const Vec2& p : on_grid(points, close)) {
+            point(p, op);
+            op = 'l';
+        }
+    }
+
+    //! Bezier curves along an arc, at most a quarter each; ends on the path's current point.
+    void arc(const Vec2& centre, double radius, double from, double to)
+    {
+        const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / (M_PI / 2) - 1e-9)));
+        const double step = (to - from) / pieces;
+        const double reach = radius * 4 / 3 * std::tan(step / 4);
+        const auto at = [&](double a) -> Vec2 { return centre + radius * Vec2(std::cos(a), std::sin(a)); };
+        const auto along = [&](double a) -> Vec2 { return reach * Vec2(-std::sin(a), std::cos(a)); };
+        point(at(from), 'm');
+        for (int i = 0; i < pieces; ++i) {
+            const double a = from + i * step;
+            for (const Vec2& p : {Vec2(at(a) + along(a)), Vec2(at(a + step) - along(a + step))}) {
+                length(p.x());
+                length(p.y());
+            }
+            point(at(a + step), 'c');
+        }
+    }
+
+    //! Draw with what \p set changes undone afterwards.
+    template <class Set, class Draw>
+    void kept(const Set& set, const Draw& draw)
+    {
+        const Pen before = pen;
+        out() += "q\n";
+        set();
+        draw();
+        out() += "Q\n";
+        pen = before;
+    }
+
+    void move_origin(const Vec2& origin)
+    {
+        if (!origin.isZero()) {
+            out() += "1 0 0 1 ";
+            length(origin.x());
+            length(origin.y());
+            out() += "cm\n";
+        }
+    }
+
+    PdfFont::Glyph glyph(char32_t c, const std::string& where)
+    {
+        const PdfFont::Glyph glyph = font.glyph(c);
+        if (page.problem.empty() && glyph.id == 0) {
+            page.problem = "the booklet's font has no character U+" + hexadecimal(c) + ", used in \"" + where +
+                           "\": write it with other characters";
+        }
+        page.characters.insert(c);
+        return glyph;
     }
 };
 
-PdfCanvas::PdfCanvas(double width, double height, const std::string& font_file) : state_(std::make_unique<State>())
-{
-    State& s = *state_;
-    s.font = load_font(font_file, s.face);
-    if (s.font == nullptr) {
-        s.problem = "cannot read the booklet's font " + font_file;
-    }
-    s.surface = cairo_pdf_surface_create_for_stream(append, &s.bytes, width, height);
-    cairo_pdf_surface_restrict_to_version(s.surface, CAIRO_PDF_VERSION_1_4);
-    s.page = cairo_create(s.surface);
-    s.cr = s.page;
-    s.prepare(s.page);
-}
+PdfCanvas::PdfCanvas(const PdfFont& font) : state_(new State{font, {}}) {}
 
-PdfCanvas::~PdfCanvas()
-{
-    for (const auto& [group, extent] : state_->groups) {
-        cairo_surface_destroy(group);
-    }
-    cairo_destroy(state_->page);
-    cairo_surface_destroy(state_->surface);
-    if (state_->font != nullptr) {
-        cairo_font_face_destroy(state_->font);
-    }
-}
-
-void PdfCanvas::start_page(const std::string& label)
-{
-    cairo_pdf_surface_set_page_label(state_->surface, label.c_str());
-}
-
-void PdfCanvas::finish_page()
-{
-    cairo_show_page(state_->page);
-}
+PdfCanvas::~PdfCanvas() = default;
 
 void PdfCanvas::fill(const Polygon& polygon, unsigned rgb)
 {
-    state_->path(polygon, true);
-    state_->colour(rgb);
-    cairo_fill(state_->cr);
+    fills({polygon}, rgb);
+}
+
+void PdfCanvas::fills(const std::vector<Polygon>& polygons, unsigned rgb)
+{
+    if (polygons.empty()) {
+        return;
+    }
+    state_->use_fill(rgb);
+    for (const Polygon& polygon : polygons) {
+        state_->path(polygon, true);
+    }
+    state_->out() += "f\n";
 }
 
 void PdfCanvas::fill_and_outline(const Polygon& polygon, unsigned rgb, const Line& line)
 {
+    state_->use_fill(rgb);
+    state_->use_line(line);
     state_->path(polygon, true);
-    state_->colour(rgb);
-    cairo_fill_preserve(state_->cr);
-    state_->pen(line);
-    cairo_stroke(state_->cr);
+    state_->out() += "b\n";
+}
+
+void PdfCanvas::fill_and_stroke(const Polygon& chain, unsigned rgb, const Line& line)
+{
+    state_->use_fill(rgb);
+    state_->use_line(line);
+    state_->path(chain, false);
+    state_->out() += "B\n";
 }
 
 void PdfCanvas::outline(const Polygon& polygon, const Line& line)
 {
+    state_->use_line(line);
     state_->path(polygon, true);
-    state_->pen(line);
-    cairo_stroke(state_->cr);
+    state_->out() += "s\n";
 }
 
 void PdfCanvas::stroke(const Polygon& chain, const Line& line)
 {
-    state_->path(chain, false);
-    state_->pen(line);
-    cairo_stroke(state_->cr);
+    strokes({chain}, line);
+}
+
+void PdfCanvas::strokes(const std::vector<Polygon>& chains, const Line& line)
+{
+    if (chains.empty()) {
+        return;
+    }
+    state_->use_line(line);
+    for (const Polygon& chain : chains) {
+        state_->path(chain, false);
+    }
+    state_->out() += "S\n";
 }
 
 void PdfCanvas::dots(const std::vector<std::pair<Vec2, Vec2>>& segments, double diameter, double spacing, unsigned rgb)
 {
-    cairo_new_path(state_->cr);
-    for (const auto& [a, b] : segments) {
-        cairo_move_to(state_->cr, a.x(), a.y());
-        cairo_line_to(state_->cr, b.x(), b.y());
+    if (segments.empty()) {
+        return;
     }
-    state_->colour(rgb);
-    const double dashes[] = {0, spacing};
-    cairo_set_line_width(state_->cr, diameter);
-    cairo_set_dash(state_->cr, dashes, 2, 0);
-    cairo_stroke(state_->cr);
+    state_->use_line({diameter, rgb, 0});
+    state_->use_dash(0, spacing);
+    for (const auto& [a, b] : segments) {
+        state_->point(a, 'm');
+        state_->point(b, 'l');
+    }
+    state_->out() += "S\n";
 }
 
 void PdfCanvas::disc(const Vec2& centre, double radius, unsigned rgb, const Line& line)
 {
-    cairo_new_path(state_->cr);
-    cairo_arc(state_->cr, centre.x(), centre.y(), radius, 0, 2 * M_PI);
-    state_->colour(rgb);
-    cairo_fill_preserve(state_->cr);
-    state_->pen(line);
-    cairo_stroke(state_->cr);
+    state_->use_fill(rgb);
+    state_->use_line(line);
+    state_->arc(centre, radius, 0, 2 * M_PI);
+    state_->out() += "b\n";
 }
 
 void PdfCanvas::arc(const Vec2& centre, double radius, double from, double to, const Line& line)
 {
-    cairo_new_path(state_->cr);
-    if (to >= from) {
-        cairo_arc(state_->cr, centre.x(), centre.y(), radius, from, to);
-    } else {
-        cairo_arc_negative(state_->cr, centre.x(), centre.y(), radius, from, to);
-    }
-    state_->pen(line);
-    cairo_stroke(state_->cr);
+    state_->use_line(line);
+    state_->arc(centre, radius, from, to);
+    state_->out() += "S\n";
 }
 
 void PdfCanvas::shifted(const Vec2& origin, const std::function<void()>& draw)
 {
-    cairo_save(state_->cr);
-    cairo_translate(state_->cr, origin.x(), origin.y());
-    draw();
-    cairo_restore(state_->cr);
+    state_->kept([&] { state_->move_origin(origin); }, draw);
 }
 
 void PdfCanvas::clipped(const Polygon& polygon, const std::function<void()>& draw)
 {
-    cairo_save(state_->cr);
-    state_->path(polygon, true);
-    cairo_clip(state_->cr);
-    draw();
-    cairo_restore(state_->cr);
+    const auto clip = [&] {
+        state_->path(polygon, true);
+        state_->out() += "h W n\n";
+    };
+    state_->kept(clip, draw);
 }
 
 void PdfCanvas::clipped_to_disc(const Vec2& centre, double radius, const std::function<void()>& draw)
 {
-    cairo_save(state_->cr);
-    cairo_new_path(state_->cr);
-    cairo_arc(state_->cr, centre.x(), centre.y(), radius, 0, 2 * M_PI);
-    cairo_clip(state_->cr);
-    draw();
-    cairo_restore(state_->cr);
+    const auto clip = [&] {
+        state_->arc(centre, radius, 0, 2 * M_PI);
+        state_->out() += "h W n\n";
+    };
+    state_->kept(clip, draw);
 }
 
 double PdfCanvas::text_width(const std::string& utf8, double size) const
 {
-    cairo_text_extents_t extents;
-    cairo_set_font_size(state_->cr, size);
-    cairo_text_extents(state_->cr, utf8.c_str(), &extents);
-    return extents.x_advance;
+    double width = 0;
+    for (const char32_t c : code_points(utf8)) {
+        width += size * state_->font.glyph(c).advance;
+    }
+    return width;
 }
 
 void PdfCanvas::text(const std::string& utf8, const Vec2& at, const TextStyle& style)
 {
-    state_->check_glyphs(utf8);
     const double share = style.align == Align::Left ? 0 : style.align == Align::Centre ? 0.5 : 1;
-    const double x = at.x() - share * text_width(utf8, style.size);
-    cairo_t* cr = state_->cr;
+    const double width = text_width(utf8, style.size);
+    const double x = at.x() - share * width;
     if (style.halo != 0) {
         const double y = at.y() - 0.37 * style.size;
-        stroke({Vec2(x, y), Vec2(x + text_width(utf8, style.size), y)}, {1.05 * style.size, style.halo, 0});
+        stroke({Vec2(x, y), Vec2(x + width, y)}, {1.05 * style.size, style.halo, 0});
     }
-    cairo_move_to(cr, x, at.y());
-    state_->colour(style.rgb);
-    cairo_show_text(cr, utf8.c_str());
-    cairo_new_path(cr);
+    State& s = *state_;
+    s.use_fill(style.rgb);
+    s.out() += "BT\n";
+    if (s.pen.font_size != style.size) {
+        s.pen.font_size = style.size;
+        s.out() += "/F ";
+        s.length(style.size);
+        s.out() += "Tf\n";
+    }
+    s.out() += "1 0 0 -1 ";
+    s.number(std::round(x * pdf_units));
+    s.number(std::round(at.y() * pdf_units));
+    s.out() += "Tm\n(";
+    for (const char32_t c : code_points(utf8)) {
+        add_glyph(s.out(), s.glyph(c, utf8).id);
+    }
+    s.out() += ")Tj\nET\n";
 }
 
 double PdfCanvas::paragraph(const std::string& utf8, const Vec2& at, double width, const TextStyle& style,
@@ -296,77 +367,87 @@ double PdfCanvas::paragraph(const std::string& utf8, const Vec2& at, double widt
     return y + leading;
 }
 
-int PdfCanvas::group(double extent, const std::function<void()>& draw)
+void PdfCanvas::place(const std::shared_ptr<const PdfGroup>& group, const Vec2& at)
 {
-    const double side = std::ceil(extent) + 2;
-    const cairo_rectangle_t box{-side, -side, 2 * side, 2 * side};
-    cairo_surface_t* recording = cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, &box);
-    cairo_t* outer = state_->cr;
-    state_->cr = cairo_create(recording);
-    state_->prepare(state_->cr);
-    draw();
-    cairo_destroy(state_->cr);
-    state_->cr = outer;
-    state_->groups.emplace_back(recording, side);
-    return static_cast<int>(state_->groups.size()) - 1;
-}
-
-void PdfCanvas::place(int group, const Vec2& at)
-{
-    cairo_save(state_->cr);
-    cairo_set_source_surface(state_->cr, state_->groups[group].first, at.x(), at.y());
-    cairo_paint(state_->cr);
-    cairo_restore(state_->cr);
+    State& s = *state_;
+    auto& groups = s.page.groups;
+    const auto known = std::find(groups.begin(), groups.end(), group);
+    const auto number = known - groups.begin();
+    if (known == groups.end()) {
+        groups.push_back(group);
+    }
+    const auto show = [&] {
+        s.out() += "/G";
+        add_integer(s.out(), number);
+        s.out() += " Do\n";
+    };
+    if (at.isZero()) {
+        show();
+    } else {
+        s.kept([&] { s.move_origin(at); }, show);
+    }
 }
 
 void PdfCanvas::tagged(const std::string& tag, const std::function<void()>& draw)
 {
-    cairo_tag_begin(state_->cr, tag.c_str(), nullptr);
+    State& s = *state_;
+    s.tags->push_back({tag, "", s.page.marks++, -1, {}});
+    s.out() += "/" + tag + "<</MCID ";
+    add_integer(s.out(), s.page.marks - 1);
+    s.out() += ">>BDC\n";
     draw();
-    cairo_tag_end(state_->cr, tag.c_str());
+    s.out() += "EMC\n";
+}
+
+void PdfCanvas::part(const std::string& tag, const std::function<void()>& draw)
+{
+    PdfTag holder{tag, "", -1, -1, {}};
+    std::vector<PdfTag>* outer = state_->tags;
+    state_->tags = &holder.kids;
+    draw();
+    state_->tags = outer;
+    outer->push_back(std::move(holder));
 }
 
 void PdfCanvas::figure(const std::string& alternative, const std::function<void()>& draw)
 {
-    state_->alternatives.push_back(alternative);
     tagged("Figure", draw);
+    state_->tags->back().alternative = alternative;
 }
 
-void PdfCanvas::destination(const std::string& name)
+void PdfCanvas::link(const std::string& destination, const std::string& utf8, const Vec2& at, const TextStyle& style)
 {
-    cairo_tag_begin(state_->cr, CAIRO_TAG_DEST, ("name=" + quoted(name)).c_str());
-    cairo_tag_end(state_->cr, CAIRO_TAG_DEST);
+    tagged("Link", [&] { text(utf8, at, style); });
+    state_->tags->back().link = static_cast<int>(state_->page.links.size());
+    const Vec2 low(at.x(), at.y() - style.size);
+    state_->page.links.push_back({{low, low + Vec2(text_width(utf8, style.size), 1.3 * style.size)}, destination});
 }
 
-void PdfCanvas::link(const std::string& destination, const std::function<void()>& draw)
+void PdfCanvas::destination(const std::string& name, double top)
 {
-    cairo_tag_begin(state_->cr, CAIRO_TAG_LINK, ("dest=" + quoted(destination)).c_str());
-    draw();
-    cairo_tag_end(state_->cr, CAIRO_TAG_LINK);
+    state_->page.destinations[name] = top;
 }
 
-int PdfCanvas::bookmark(int parent, const std::string& title, const std::string& destination)
+void PdfCanvas::bookmark(int level, const std::string& title, double top)
 {
-    return cairo_pdf_surface_add_outline(state_->surface, parent, title.c_str(),
-                                         ("dest=" + quoted(destination)).c_str(), CAIRO_PDF_OUTLINE_FLAG_OPEN);
+    state_->page.bookmarks.push_back({level, title, top});
 }
 
-const std::vector<std::string>& PdfCanvas::alternatives() const
+PdfPage PdfCanvas::take()
 {
-    return state_->alternatives;
+    PdfPage page = std::exchange(state_->page, {});
+    state_->pen = {};
+    return page;
 }
 
-Expected<std::string> PdfCanvas::finish()
+std::shared_ptr<const PdfGroup> pdf_group(const PdfFont& font, double extent,
+                                          const std::function<void(PdfCanvas&)>& draw)
 {
-    cairo_surface_finish(state_->surface);
-    if (!state_->problem.empty()) {
-        return refuse(state_->problem);
-    }
-    const cairo_status_t status = cairo_surface_status(state_->surface);
-    if (status != CAIRO_STATUS_SUCCESS) {
-        return machine_failure(std::string("the booklet cannot be drawn: ") + cairo_status_to_string(status));
-    }
-    return std::move(state_->bytes);
+    PdfCanvas canvas(font);
+    draw(canvas);
+    PdfPage drawn = canvas.take();
+    expects(drawn.characters.empty() && drawn.groups.empty(), "pdf_group: only lines and fills");
+    return std::make_shared<const PdfGroup>(PdfGroup{extent, std::move(drawn.content)});
 }
 
 } // namespace rhombloom

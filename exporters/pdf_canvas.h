@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/expected.h"
 #include "exporters/drawing.h"
+#include "exporters/pdf_font.h"
+#include "exporters/pdf_page.h"
 
 namespace rhombloom {
 
@@ -34,25 +35,28 @@ struct Line
     double dash = 0; //!< length of dashes and gaps; 0: solid
 };
 
-//! \brief A PDF document to draw on, page by page: opaque fills, lines, text in one embedded font, tags, bookmarks.
+//! \brief One page of a PDF document to draw on: opaque fills, lines, text in one embedded font, tags, bookmarks.
 //! \details Opaque only, so that it can become PDF/A-1. Coordinates are points with y down. A character that the font
-//! does not have is an error, reported by finish().
+//! does not have is noted as the page's problem. Pages know nothing of each other: they may be drawn at the same time.
 class PdfCanvas
 {
 public:
-    //! \param font_file a TrueType font
-    PdfCanvas(double width, double height, const std::string& font_file);
+    //! \param font must live as long as the canvas
+    explicit PdfCanvas(const PdfFont& font);
     ~PdfCanvas();
     PdfCanvas(const PdfCanvas&) = delete;
     PdfCanvas& operator=(const PdfCanvas&) = delete;
 
-    void start_page(const std::string& label);
-    void finish_page();
-
     void fill(const Polygon& polygon, unsigned rgb);
+    //! \brief Several polygons in one go.
+    void fills(const std::vector<Polygon>& polygons, unsigned rgb);
     void fill_and_outline(const Polygon& polygon, unsigned rgb, const Line& line);
+    //! \brief Filled as if closed, the line left open.
+    void fill_and_stroke(const Polygon& chain, unsigned rgb, const Line& line);
     void outline(const Polygon& polygon, const Line& line);
     void stroke(const Polygon& chain, const Line& line);
+    //! \brief Several chains in one go.
+    void strokes(const std::vector<Polygon>& chains, const Line& line);
     //! \brief Round dots every \p spacing along segments (pairs of points).
     void dots(const std::vector<std::pair<Vec2, Vec2>>& segments, double diameter, double spacing, unsigned rgb);
     void disc(const Vec2& centre, double radius, unsigned rgb, const Line& line);
@@ -68,28 +72,30 @@ public:
     //! \brief Broken at spaces to \p width; returns the y of the line after the last one.
     double paragraph(const std::string& utf8, const Vec2& at, double width, const TextStyle& style, double leading);
 
-    //! \brief Draw once, place often: a group becomes one object of the file. Drawn about its own origin.
-    int group(double extent, const std::function<void()>& draw);
-    void place(int group, const Vec2& at);
+    //! \brief Draw a group here.
+    void place(const std::shared_ptr<const PdfGroup>& group, const Vec2& at);
 
-    //! \brief Structure of the document: "Sect", "H1", "P", "Figure" ... with what \p draw draws in it.
+    //! \brief Structure of the document: "H1", "P", "Caption" ... with what \p draw draws in it.
     void tagged(const std::string& tag, const std::function<void()>& draw);
+    //! \brief Structure that only holds other structure: "Sect".
+    void part(const std::string& tag, const std::function<void()>& draw);
     //! \brief A figure with a text that stands for it.
     void figure(const std::string& alternative, const std::function<void()>& draw);
-    void destination(const std::string& name);
-    void link(const std::string& destination, const std::function<void()>& draw);
-    //! \brief Add a bookmark below \p parent (0: top level); returns its number.
-    int bookmark(int parent, const std::string& title, const std::string& destination);
+    //! \brief A text that leads to a destination.
+    void link(const std::string& destination, const std::string& utf8, const Vec2& at, const TextStyle& style);
+    void destination(const std::string& name, double top);
+    void bookmark(int level, const std::string& title, double top);
 
-    //! \brief The alternative texts of the figures, in the order of the document.
-    const std::vector<std::string>& alternatives() const;
-
-    //! \brief The bytes of the document. Refuses when a text had a character that the font lacks.
-    Expected<std::string> finish();
+    //! \brief What was drawn. The canvas is empty afterwards.
+    PdfPage take();
 
 private:
     struct State;
     std::unique_ptr<State> state_;
 };
+
+//! \brief Draw a group that reaches \p extent points from its origin.
+std::shared_ptr<const PdfGroup> pdf_group(const PdfFont& font, double extent,
+                                          const std::function<void(PdfCanvas&)>& draw);
 
 } // namespace rhombloom

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "exporters/paper.h"
+#include "exporters/pdf_font.h"
+#include "exporters/pdf_page.h"
 
 namespace rhombloom {
 
@@ -11,15 +13,15 @@ struct DocumentInfo
 {
     std::string title;
     std::string language = "en";
-    std::vector<std::string> alternatives; //!< of the figures, in the order of the document
 };
 
-//! \brief Turn a drawn document into PDF/A-1b: language, alternative texts, XMP, the sRGB output intent, opening with
-//! its bookmarks; and pack it tightly. No transparency may have been drawn.
-std::string finish_pdf(const std::string& bytes, const DocumentInfo& info);
+//! \brief Put pages together to a PDF/A-1b: tagged, with bookmarks and page labels, packed tightly.
+//! \details Refuses when a page has a problem.
+Expected<std::string> pdf_document(const PdfFont& font, std::vector<PdfPage> pages, const PaperSize& paper,
+                                   const DocumentInfo& info);
 
-//! \brief Two pages side by side on each sheet's side, in the order for folding a stack of sheets (saddle stitch):
-//! print on both sides, flip on the short edge, fold. Blank pages fill up to a multiple of four.
+//! \brief Two pages of such a document side by side on each sheet's side, in the order for folding a stack of sheets
+//! (saddle stitch): print on both sides, flip on the short edge, fold. Blank pages fill up to a multiple of four.
 std::string impose_pdf(const std::string& bytes, Paper paper, const std::string& title);
 
 //! \brief A small sRGB profile (ICC version 2, with the standard's tone curve).
