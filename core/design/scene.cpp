@@ -119,7 +119,9 @@ Expected<void> run(const Import& import, const Context& context)
     if (!surface) {
         return tl::make_unexpected(surface.error());
     }
-    const EmbedReport report = embed_in_place(*surface, context.element(), context.embedding);
+    EmbedOptions options = context.embedding;
+    options.start = Start::Edited; // as it settled when it was made: its creases are meant
+    const EmbedReport report = embed_in_place(*surface, context.element(), options);
     return add_part(import.id, std::move(*surface), report, context.scene);
 }
 

@@ -7,8 +7,6 @@ namespace rhombloom {
 
 namespace {
 
-constexpr int samples = 6000;
-
 Deviation deviation(const std::vector<Vec3>& points, const MeshTree& tree)
 {
     Deviation result;
@@ -71,7 +69,7 @@ std::vector<Vec3> sample(const TriangleMesh& mesh, int count)
     return result;
 }
 
-Distance distance(const Surface& surface, const MeshTree& target)
+Distance distance(const Surface& surface, const MeshTree& target, int samples)
 {
     const TriangleMesh elements = element_triangles(surface);
     Distance result;
@@ -83,7 +81,8 @@ Distance distance(const Surface& surface, const MeshTree& target)
 Eigen::Affine3d fit(const Surface& surface, const MeshTree& target, bool rescale)
 {
     constexpr int rounds = 6;
-    const std::vector<Vec3> points = sample(element_triangles(surface), samples / 4);
+    constexpr int samples = 1500;
+    const std::vector<Vec3> points = sample(element_triangles(surface), samples);
     Eigen::Affine3d pose = Eigen::Affine3d::Identity();
     Eigen::Matrix3Xd from(3, points.size());
     Eigen::Matrix3Xd to(3, points.size());

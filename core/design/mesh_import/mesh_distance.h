@@ -27,7 +27,8 @@ TriangleMesh element_triangles(const Surface& surface);
 //! \brief Points spread evenly over a mesh: about \p count of them, always the same ones.
 std::vector<Vec3> sample(const TriangleMesh& mesh, int count);
 
-Distance distance(const Surface& surface, const MeshTree& target);
+//! \brief Distance of a network from its target, by \p samples points on each.
+Distance distance(const Surface& surface, const MeshTree& target, int samples = 6000);
 
 //! \brief The similarity transform that brings \p surface nearest to \p target; with \p rescale false a rigid motion.
 //! \details Iterated closest points (Besl and McKay 1992) from the present pose.

@@ -5,6 +5,7 @@
 
 #include "core/design/mesh_import/mesh_repair.h"
 #include "core/design/mesh_import/network.h"
+#include "core/design/mesh_import/network_crossings.h"
 #include "core/design/mesh_import/network_search.h"
 #include "core/model/angular_defect.h"
 #include "core/model/validity.h"
@@ -115,6 +116,7 @@ void fill_report(const Surface& surface, const FoundNetwork& found, ImportedMesh
     report.defects = defect_range(surface, result.element);
     report.hard_nodes = hard_nodes(surface, result.element);
     report.embedding = found.embedding;
+    report.crossings = crossings(surface);
 }
 
 } // namespace

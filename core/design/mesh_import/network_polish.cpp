@@ -1,175 +1,214 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <set>
 
-#include "core/design/mesh_import/network_trial.h"
-#include "core/design/mesh_import/remesh_mesh.h"
+#include "core/design/mesh_import/network_moves.h"
+#include "core/form/parallel.h"
 
 namespace rhombloom {
 
 namespace {
 
-using VertexHandle = EditMesh::VertexHandle;
-using EdgeHandle = EditMesh::EdgeHandle;
-
-constexpr double least_gain = 1e-3; // of the score, la
+constexpr double least_gain = 5e-4; // of the score, la
 constexpr double most_added = 0.02; // of the elements, by splits
-constexpr int splits_per_place = 3; // the longest edges there
-constexpr int flips_per_place = 8;  // the most regular ones there
-constexpr double work = 30000;      // elements embedded in all trials together
+constexpr double reach = 3;         // edges of triangles over which a move is judged
+constexpr std::size_t most_places = 8;
+constexpr int patience = 3;     // rounds in vain after which it ends
+constexpr int alternatives = 4; // moves that are tried at a place, side by side
 
-struct Move
+//! Where something is to be done, and what.
+struct Place
 {
-    int edge = 0;
-    bool split = false;
-    double rank = 0; //!< small ones are tried first
+    Corners corners;
+    Vec3 where = Vec3::Zero();
+    std::vector<Move> moves;
 };
 
-int irregularity(const EditMesh& mesh, EdgeHandle e)
+struct Chosen
 {
-    const auto h = mesh.halfedge_handle(e, 0);
-    const auto [c, d] = opposite_vertices(mesh, e);
-    int sum = 0;
-    for (const auto& [v, step] : {std::pair(mesh.from_vertex_handle(h), -1), std::pair(mesh.to_vertex_handle(h), -1),
-                                  std::pair(c, 1), std::pair(d, 1)}) {
-        const int off = static_cast<int>(mesh.valence(v)) + step - 6;
-        sum += off * off;
+    Move move;
+    double gain = 0;
+};
+
+class Polishing
+{
+public:
+    Polishing(Trial& best, const Trials& trials, double price, long work)
+        : best_(best), trials_(trials), price_(price), work_(work), radius_(reach * triangle_edge(trials.element))
+    {
+    }
+
+    void run()
+    {
+        const auto& progress = trials_.options.progress;
+        while (work_ > 0 && round() && (!progress || progress("easing the network"))) {
+        }
+    }
+
+private:
+    bool round();
+    std::vector<Place> places();
+    double badness(const Trial& trial, std::size_t element) const;
+    double badness_near(const Trial& trial, const Vec3& where) const;
+    std::vector<std::optional<Trial>> settle_all(const std::vector<std::vector<Move>>& sets);
+    std::vector<Chosen> choose(const std::vector<Place>& places, const std::vector<std::optional<Trial>>& trials) const;
+    bool take(std::vector<std::optional<Trial>>& candidates);
+
+    Trial& best_;
+    const Trials& trials_;
+    double price_;
+    long work_;
+    double radius_;
+    int in_vain_ = 0;                      //!< rounds without a gain, in a row
+    std::map<Corners, std::size_t> tried_; //!< how many of a place's moves were in vain
+};
+
+//! What an element adds to the score, to first order.
+double Polishing::badness(const Trial& trial, std::size_t element) const
+{
+    const ElementRating& rating = trial.ratings[element];
+    const double share =
+        rating.distance * rating.distance / (2 * best_.rms * static_cast<double>(best_.ratings.size()));
+    return price_ * excess_stretch(rating.stretch) + share;
+}
+
+double Polishing::badness_near(const Trial& trial, const Vec3& where) const
+{
+    double sum = 0;
+    for (std::size_t k = 0; k < trial.ratings.size(); ++k) {
+        const double off = (trial.ratings[k].middle - where).squaredNorm() / (radius_ * radius_);
+        sum += off < 1 ? (1 - off) * badness(trial, k) : 0;
     }
     return sum;
 }
 
-bool degrees_fit(const EditMesh& mesh, EdgeHandle e, int max_degree)
+//! The worst elements, away from each other, where not everything has been tried.
+std::vector<Place> Polishing::places()
 {
-    const auto h = mesh.halfedge_handle(e, 0);
-    const auto [c, d] = opposite_vertices(mesh, e);
-    return mesh.valence(mesh.from_vertex_handle(h)) > 4 && mesh.valence(mesh.to_vertex_handle(h)) > 4 &&
-           static_cast<int>(mesh.valence(c)) < max_degree && static_cast<int>(mesh.valence(d)) < max_degree;
-}
-
-//! Flips and splits around the edge between two corners, the most promising first.
-std::vector<Move> moves_near(const EditMesh& mesh, VertexHandle a, VertexHandle b, int max_degree, bool may_split)
-{
-    const auto h = mesh.find_halfedge(a, b);
-    const auto [c, d] = opposite_vertices(mesh, mesh.edge_handle(h));
-    std::set<int> edges;
-    for (const VertexHandle v : {a, b, c, d}) {
-        for (const auto e : mesh.ve_range(v)) {
-            edges.insert(e.idx());
-        }
+    std::vector<double> bad(best_.ratings.size());
+    for (std::size_t k = 0; k < bad.size(); ++k) {
+        bad[k] = badness(best_, k);
     }
-    std::vector<Move> flips;
-    std::vector<Move> splits;
-    for (const int e : edges) {
-        if (may_flip(mesh, EdgeHandle(e)) && degrees_fit(mesh, EdgeHandle(e), max_degree)) {
-            flips.push_back({e, false, static_cast<double>(irregularity(mesh, EdgeHandle(e)))});
-        }
-        splits.push_back({e, true, -edge_length(mesh, EdgeHandle(e))});
-    }
-    const auto before = [](const Move& x, const Move& y) {
-        return std::tie(x.rank, x.edge) < std::tie(y.rank, y.edge);
-    };
-    std::sort(flips.begin(), flips.end(), before);
-    std::sort(splits.begin(), splits.end(), before);
-    flips.resize(std::min<std::size_t>(flips.size(), flips_per_place));
-    splits.resize(may_split ? std::min<std::size_t>(splits.size(), splits_per_place) : 0);
-    flips.insert(flips.begin() + std::min<std::ptrdiff_t>(3, static_cast<std::ptrdiff_t>(flips.size())), splits.begin(),
-                 splits.end());
-    return flips;
-}
-
-Triangle sorted(Triangle t)
-{
-    std::sort(t.begin(), t.end());
-    return t;
-}
-
-std::optional<Trial> carry_out(const Move& move, const Trial& trial, const Trials& trials)
-{
-    EditMesh mesh = edit_mesh(trial.triangles);
-    const EdgeHandle e(move.edge);
-    if (move.split) {
-        const auto h = mesh.halfedge_handle(e, 0);
-        const Vec3 middle = (mesh.point(mesh.from_vertex_handle(h)) + mesh.point(mesh.to_vertex_handle(h))) / 2;
-        mesh.split(e, mesh.add_vertex(middle));
-    } else {
-        mesh.flip(e);
-    }
-    std::map<Triangle, Vec3> known;
-    for (std::size_t i = 0; i < trial.middles.size(); ++i) {
-        known[sorted(trial.triangles.triangles[i])] = trial.middles[i];
-    }
-    const TriangleMesh changed = triangle_mesh(mesh);
-    std::vector<Vec3> middles;
-    for (const Triangle& t : changed.triangles) {
-        const auto found = known.find(sorted(t));
-        const Vec3 mean = (changed.points[t[0]] + changed.points[t[1]] + changed.points[t[2]]) / 3;
-        middles.push_back(found == known.end() ? mean : found->second);
-    }
-    return settle(changed, middles, trials);
-}
-
-//! Elements to work at, the worst first: the overstretched, else those farthest from the target.
-std::vector<int> trouble(const Trial& trial, const Trials& trials)
-{
-    const Surface& surface = trial.found.surface;
-    const bool far_only = trial.score < 1;
-    std::vector<double> badness;
-    for (const Face f : surface.faces()) {
-        const Quad q = quad(surface, f);
-        const Vec3 middle =
-            (surface.point(Vertex(q[0])) + surface.point(Vertex(q[2]))) / (2 * trial.found.target_scale);
-        badness.push_back(far_only ? trials.target.nearest(middle).distance : trial.stretch[f.idx()]);
-    }
-    std::vector<int> order(badness.size());
+    std::vector<int> order(bad.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return badness[a] > badness[b]; });
-    constexpr std::size_t places = 12;
-    order.resize(std::min(order.size(), places));
-    return order;
-}
-
-//! The first move at this element that lowers the score, if one does before the budget is spent.
-bool improve_at(int element, Trial& best, const Trials& trials, int max_degree, int& budget)
-{
-    const EditMesh mesh = edit_mesh(best.triangles);
-    const Quad q = quad(best.found.surface, Face(element));
-    const double room = (1 + most_added) * trials.options.elements;
-    const bool may_split = static_cast<double>(best.found.surface.n_faces()) + 3 <= room;
-    for (const Move& move : moves_near(mesh, VertexHandle(q[0]), VertexHandle(q[2]), max_degree, may_split)) {
-        if (budget-- <= 0) {
-            return false;
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return bad[a] > bad[b]; });
+    const double room = (1 + most_added) * trials_.options.elements;
+    const MoveLimits limits{max_move_degree(trials_.element), static_cast<double>(bad.size()) + 3 <= room};
+    std::vector<Place> result;
+    for (const int k : order) {
+        const Vec3& where = best_.ratings[k].middle;
+        const bool crowded = std::any_of(result.begin(), result.end(),
+                                         [&](const Place& p) { return (p.where - where).norm() < radius_; });
+        if (crowded || result.size() == most_places) {
+            continue;
         }
-        auto trial = carry_out(move, best, trials);
-        if (trial && trial->score < best.score - least_gain) {
-            best = std::move(*trial);
-            return true;
+        const Quad q = quad(best_.found.surface, Face(k));
+        Place place{std::minmax(q[0], q[2]), where, {}};
+        std::vector<Move> moves = moves_near(best_.plan, place.corners, limits);
+        for (std::size_t& i = tried_[place.corners]; i < moves.size() && place.moves.size() < alternatives; ++i) {
+            if (is_permissible(carry_out({moves[i]}, best_.plan), trials_)) {
+                place.moves.push_back(moves[i]);
+            }
+        }
+        if (!place.moves.empty()) {
+            result.push_back(std::move(place));
         }
     }
-    return false;
+    return result;
+}
+
+std::vector<std::optional<Trial>> Polishing::settle_all(const std::vector<std::vector<Move>>& sets)
+{
+    std::vector<std::optional<Trial>> result(sets.size());
+    parallel_tasks(default_threads(), static_cast<int>(sets.size()), [&](int k) {
+        if (!sets[k].empty()) {
+            result[k] = settle(carry_out(sets[k], best_.plan), trials_);
+        }
+    });
+    const long lost = static_cast<long>(best_.ratings.size()) * trials_.max_iterations;
+    for (std::size_t k = 0; k < sets.size(); ++k) {
+        work_ -= result[k] ? result[k]->cost : sets[k].empty() ? 0 : lost;
+    }
+    return result;
+}
+
+//! At each place the move that helps most there, if one does.
+std::vector<Chosen> Polishing::choose(const std::vector<Place>& places,
+                                      const std::vector<std::optional<Trial>>& trials) const
+{
+    std::vector<Chosen> result;
+    for (const Place& place : places) {
+        Chosen chosen;
+        const double before = badness_near(best_, place.where);
+        for (std::size_t j = 0; j < place.moves.size(); ++j) {
+            const double gain = trials[j] ? before - badness_near(*trials[j], place.where) : 0;
+            if (gain > chosen.gain) {
+                chosen = {place.moves[j], gain};
+            }
+        }
+        if (chosen.gain > least_gain) {
+            result.push_back(chosen);
+        }
+    }
+    std::stable_sort(result.begin(), result.end(), [](const Chosen& a, const Chosen& b) { return a.gain > b.gain; });
+    return result;
+}
+
+//! The best of the candidates becomes the best of all, if it is.
+bool Polishing::take(std::vector<std::optional<Trial>>& candidates)
+{
+    bool taken = false;
+    for (std::optional<Trial>& candidate : candidates) {
+        if (candidate && score(*candidate, price_) < score(best_, price_) - least_gain) {
+            best_ = std::move(*candidate);
+            taken = true;
+        }
+    }
+    return taken;
+}
+
+bool Polishing::round()
+{
+    const std::vector<Place> places = this->places();
+    if (places.empty()) {
+        return false;
+    }
+    std::vector<std::vector<Move>> sets(alternatives);
+    for (const Place& place : places) {
+        for (std::size_t j = 0; j < place.moves.size(); ++j) {
+            sets[j].push_back(place.moves[j]);
+        }
+    }
+    std::vector<std::optional<Trial>> trials = settle_all(sets);
+    const std::vector<Chosen> chosen = choose(places, trials);
+    std::vector<std::vector<Move>> combined(2);
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+        combined[0].push_back(chosen[k].move);
+        if (k < (chosen.size() + 1) / 2) {
+            combined[1].push_back(chosen[k].move);
+        }
+    }
+    if (chosen.size() == 1) {
+        combined.pop_back();
+    }
+    std::vector<std::optional<Trial>> second = settle_all(combined);
+    trials.insert(trials.end(), std::make_move_iterator(second.begin()), std::make_move_iterator(second.end()));
+    if (take(trials)) {
+        for (const Place& place : places) {
+            tried_.erase(place.corners);
+        }
+        in_vain_ = 0;
+    } else {
+        ++in_vain_;
+    }
+    return in_vain_ < patience;
 }
 
 } // namespace
 
-void polish(Trial& best, const Trials& trials, int max_degree)
+void polish(Trial& best, const Trials& trials, double price, long work)
 {
-    int budget = std::clamp(static_cast<int>(work / trials.options.elements), 20, 60);
-    bool improved = true;
-    while (improved && budget > 0) {
-        improved = false;
-        for (const int element : trouble(best, trials)) {
-            if (improve_at(element, best, trials, max_degree, budget)) {
-                improved = true;
-                break;
-            }
-            if (budget <= 0) {
-                break;
-            }
-        }
-        if (trials.options.progress && !trials.options.progress("easing the network")) {
-            return;
-        }
-    }
+    Polishing(best, trials, price, work).run();
 }
 
 } // namespace rhombloom

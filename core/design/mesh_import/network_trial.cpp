@@ -11,42 +11,39 @@ namespace rhombloom {
 
 namespace {
 
-constexpr double stretch_limit = 0.0092; // a little below the hundredth that a sheet gives
+constexpr double stretch_limit = 0.0095; // a little below the hundredth that a sheet gives
+constexpr int trial_samples = 2000;
 
-std::vector<double> element_stretch(const Surface& surface, const Element& element)
+//! Joins put the acute corners first and third; turned over they are the others.
+double largest_stretch(const Surface& surface, const Element& element, Face f)
 {
-    std::vector<double> result;
-    for (const Face f : surface.faces()) {
-        const Quad q = quad(surface, f);
-        const auto length = [&](int a, int b) {
-            return (surface.point(Vertex(q[a])) - surface.point(Vertex(q[b]))).norm();
-        };
-        // Networks from joins: the first and third corner are acute.
-        double largest = std::max(length(0, 2) / long_diagonal(element), length(1, 3) / short_diagonal(element));
-        for (int k = 0; k < 4; ++k) {
-            largest = std::max(largest, length(k, (k + 1) % 4) / element.la);
-        }
-        result.push_back(largest - 1);
+    const Quad q = quad(surface, f);
+    const auto length = [&](int a, int b) {
+        return (surface.point(Vertex(q[a])) - surface.point(Vertex(q[b]))).norm();
+    };
+    const bool front = surface.data(f).facing == Facing::Front;
+    double largest = std::max(length(0, 2) / (front ? long_diagonal(element) : short_diagonal(element)),
+                              length(1, 3) / (front ? short_diagonal(element) : long_diagonal(element)));
+    for (int k = 0; k < 4; ++k) {
+        largest = std::max(largest, length(k, (k + 1) % 4) / element.la);
     }
-    return result;
-}
-
-double score(const Trial& trial, const Element& element)
-{
-    constexpr double price = 25; // la per unit of stretch beyond the limit, summed over the elements
-    constexpr double unbuildable = 1;
-    double excess = 0;
-    for (const double s : trial.stretch) {
-        excess += std::max(0.0, s - stretch_limit);
-    }
-    return trial.found.distance.rms() / element.la + (excess > 0 ? unbuildable + price * excess : 0) +
-           (trial.found.embedding.converged ? 0 : 100);
+    return largest - 1;
 }
 
 bool permissible(const Surface& surface, const Element& element)
 {
     return std::all_of(surface.vertices_begin(), surface.vertices_end(),
                        [&](Vertex v) { return surface.is_boundary(v) || defect_problem(surface, element, v).empty(); });
+}
+
+Expected<Surface> network_of(const Plan& plan)
+{
+    SurfaceLists lists = join_network(plan.triangles, plan.middles);
+    for (std::size_t f = 0; f < lists.quads.size(); ++f) {
+        const Quad& q = lists.quads[f];
+        lists.facing[f] = plan.flipped.count(std::minmax(q[0], q[2])) > 0 ? Facing::Back : Facing::Front;
+    }
+    return make_surface(lists);
 }
 
 void scale_about_origin(Surface& surface, double factor)
@@ -56,40 +53,99 @@ void scale_about_origin(Surface& surface, double factor)
     }
 }
 
+void rate_elements(const Surface& surface, const Trials& trials, Trial& trial)
+{
+    trial.ratings.resize(surface.n_faces());
+    for (const Face f : surface.faces()) {
+        const Quad q = quad(surface, f);
+        Vec3 sum = Vec3::Zero();
+        for (const int v : q) {
+            sum += surface.point(Vertex(v));
+        }
+        ElementRating& rating = trial.ratings[f.idx()];
+        rating.middle = sum / 4;
+        rating.distance = trials.target.nearest(rating.middle).distance / trials.element.la;
+    }
+}
+
+EmbedReport embed_quickly(Surface& surface, const Trials& trials)
+{
+    EmbedOptions quick = trials.options.embedding;
+    quick.tolerance = 1e-5;      // a trial need not be exact
+    quick.start = Start::Edited; // the target's creases are meant
+    quick.max_iterations = trials.max_iterations;
+    quick.threads = 1; // several trials run side by side
+    return embed_in_place(surface, trials.element, quick);
+}
+
 } // namespace
 
-std::optional<Trial> settle(const TriangleMesh& triangles, const std::vector<Vec3>& middles, const Trials& trials)
+int max_degree(const Element& element)
 {
-    auto surface = make_surface(join_network(triangles, middles));
+    const double room = two_pi - permissible_defect(element).min;
+    return static_cast<int>(std::floor(room / element.alpha + 1e-9));
+}
+
+int max_move_degree(const Element& element)
+{
+    return std::min(8, max_degree(element));
+}
+
+bool is_permissible(const Plan& plan, const Trials& trials)
+{
+    const auto surface = network_of(plan);
+    return surface && permissible(*surface, trials.element);
+}
+
+double excess_stretch(double stretch)
+{
+    return std::max(0.0, stretch - stretch_limit);
+}
+
+double score(const Trial& trial, double price)
+{
+    return trial.rms + price * trial.excess;
+}
+
+std::optional<Trial> settle(const Plan& plan, const Trials& trials)
+{
+    auto surface = network_of(plan);
     if (!surface || !permissible(*surface, trials.element)) {
         return std::nullopt;
     }
     Trial trial;
-    EmbedOptions quick = trials.options.embedding;
-    quick.tolerance = 1e-6; // a trial need not be exact
-    quick.max_iterations = trials.max_iterations;
-    trial.found.embedding = embed_in_place(*surface, trials.element, quick);
-    trial.stretch = element_stretch(*surface, trials.element);
+    trial.found.embedding = embed_quickly(*surface, trials);
+    if (!trial.found.embedding.converged) {
+        return std::nullopt;
+    }
     const Eigen::Affine3d pose = fit(*surface, trials.target, trials.options.rescale);
+    std::vector<double> stretch;
+    for (const Face f : surface->faces()) {
+        stretch.push_back(largest_stretch(*surface, trials.element, f));
+        trial.excess += excess_stretch(stretch.back());
+    }
     for (const Vertex v : surface->vertices()) {
         surface->set_point(v, pose * surface->point(v));
     }
-    trial.found.distance = distance(*surface, trials.target);
-    trial.triangles.triangles = triangles.triangles;
+    trial.found.distance = distance(*surface, trials.target, trial_samples);
+    rate_elements(*surface, trials, trial);
+    trial.plan.triangles.triangles = plan.triangles.triangles;
+    trial.plan.flipped = plan.flipped;
     for (const Vertex v : surface->vertices()) {
-        const bool corner = v.idx() < static_cast<int>(triangles.points.size());
-        (corner ? trial.triangles.points : trial.middles).push_back(surface->point(v));
+        const bool corner = v.idx() < static_cast<int>(plan.triangles.points.size());
+        (corner ? trial.plan.triangles.points : trial.plan.middles).push_back(surface->point(v));
     }
     // All lengths grow so that the elements have their own size again, and the target with them.
     const double scale = std::cbrt(pose.linear().determinant());
     scale_about_origin(*surface, 1 / scale);
-    for (Deviation* d : {&trial.found.distance.to_target, &trial.found.distance.from_target}) {
-        d->rms /= scale;
-        d->max /= scale;
+    for (std::size_t f = 0; f < stretch.size(); ++f) {
+        trial.ratings[f].stretch = stretch[f];
+        trial.ratings[f].distance /= scale;
     }
+    trial.rms = trial.found.distance.rms() / scale / trials.element.la;
     trial.found.target_scale = 1 / scale;
     trial.found.surface = std::move(*surface);
-    trial.score = score(trial, trials.element);
+    trial.cost = static_cast<long>(stretch.size()) * (trial.found.embedding.iterations + 20);
     return trial;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 
 #include "core/design/mesh_import/network_search.h"
 
@@ -12,24 +13,60 @@ struct Trials
     const MeshTree& target;
     const Element& element;
     const SearchOptions& options;
-    int max_iterations = 2000; //!< of the embedding of one trial; what has not settled by then is no good
+    int max_iterations = 1500; //!< of the embedding of one trial; what has not settled by then is no good
 };
 
-//! \brief A triangulation, the network made of it, and how good that is.
+//! \brief The two corners that an element of a join connects, the lower number first.
+using Corners = std::pair<int, int>;
+
+//! \brief What a network is made from.
+struct Plan
+{
+    TriangleMesh triangles;    //!< corners on the target, or where they settled
+    std::vector<Vec3> middles; //!< of the triangles
+    std::set<Corners> flipped; //!< elements that are turned over
+};
+
+//! \brief How good one element is, and where it is relative to the target as it was searched.
+struct ElementRating
+{
+    Vec3 middle = Vec3::Zero();
+    double stretch = 0;  //!< the largest of its sides and diagonals
+    double distance = 0; //!< of the middle from the target, la
+};
+
+//! \brief A plan, the network made of it, and how good that is.
 struct Trial
 {
-    TriangleMesh triangles;    //!< corners where they settled, on the target as it was searched
-    std::vector<Vec3> middles; //!< of the triangles, where they settled
+    Plan plan; //!< points where they settled, on the target as it was searched
     FoundNetwork found;
-    std::vector<double> stretch; //!< of each element: the largest of its sides and diagonals
-    double score = 0;            //!< small is good: distance in la, and a price for what cannot be built
+    std::vector<ElementRating> ratings;
+    double rms = 0;    //!< distance, both ways, la
+    double excess = 0; //!< stretch beyond what a sheet gives, summed over the elements
+    long cost = 0;     //!< iterations times elements
 };
 
-//! \brief Embed the join of \p triangles and judge it. Empty when that is no surface or has impermissible defects.
-std::optional<Trial> settle(const TriangleMesh& triangles, const std::vector<Vec3>& middles, const Trials& trials);
+//! \brief Distance in la, and \p price times the excess of stretch; small is good.
+double score(const Trial& trial, double price);
 
-//! \brief Change the triangulation where elements are overstretched or far from the target, one flip or split at a
-//! time, as long as the score falls.
-void polish(Trial& best, const Trials& trials, int max_degree);
+//! \brief Stretch of one element beyond what a sheet gives.
+double excess_stretch(double stretch);
+
+//! \brief Most triangles at a corner that the element's permissible defects allow.
+int max_degree(const Element& element);
+
+//! \brief The same, within reason, for changes of a network.
+int max_move_degree(const Element& element);
+
+//! \brief Is the join of \p plan a surface with permissible defects?
+bool is_permissible(const Plan& plan, const Trials& trials);
+
+//! \brief Embed the join of \p plan and judge it. Empty when that is no surface, does not settle, or has impermissible
+//! defects.
+std::optional<Trial> settle(const Plan& plan, const Trials& trials);
+
+//! \brief Change the plan where elements are overstretched or far from the target, by flips, splits and elements turned
+//! over, as long as the score falls and less than \p work iterations times elements are spent.
+void polish(Trial& best, const Trials& trials, double price, long work);
 
 } // namespace rhombloom

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "core/design/mesh_import/network_trial.h"
+
+namespace rhombloom {
+
+//! \brief A small change of a plan.
+struct Move
+{
+    enum class Kind
+    {
+        Flip,  //!< the element connects the two other corners of its triangles
+        Split, //!< a new corner in the middle of the element: three elements more
+        Turn   //!< the element is turned over
+    };
+    Kind kind = Kind::Flip;
+    Corners corners; //!< of the element
+};
+
+struct MoveLimits
+{
+    int max_degree = 7;
+    bool may_split = true;
+};
+
+//! \brief Changes around the element between two corners, the most promising first.
+std::vector<Move> moves_near(const Plan& plan, const Corners& place, const MoveLimits& limits);
+
+//! \brief The plan after \p moves, which do not touch each other. What cannot be done is left out.
+Plan carry_out(const std::vector<Move>& moves, const Plan& plan);
+
+} // namespace rhombloom
