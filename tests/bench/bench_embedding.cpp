@@ -1,7 +1,8 @@
-// bench_embedding [--fast] [CASE ...]: the embedding's solver against general ones on the same energy, in one run, on
-// one thread. Prints processor time (medians of the repeats) until the energy is within 1e-6 of the best that anybody
-// found and until no gradient component exceeds 1e-8. CASE: a name or the beginning of one;
-// --fast: without Ceres and projected Newton.
+// bench_embedding [--fast] [--csv FILE] [CASE ...]: the embedding's solver against general ones on the same energy, in
+// one run, on one thread. Prints processor time (medians of the repeats) until the energy is within 1e-6 of the best
+// that anybody found and until no gradient component exceeds 1e-8, and how the ratios compare with what must hold.
+// CASE: a name or the beginning of one (embedding_cases.h); --fast: without Ceres and projected Newton; --csv: append
+// the times to FILE, for embedding_plot.py.
 
 #include <omp.h>
 
@@ -12,101 +13,29 @@
 #include <limits>
 #include <map>
 
+#include "tests/bench/embedding_cases.h"
 #include "tests/bench/embedding_rivals.h"
-#include "tests/core/form/triangulations.h"
 
 namespace rhombloom::bench {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double long_run = 5; // seconds; a solver that takes longer runs once
 
-struct Start
+struct Settings
 {
-    EmbeddingTerms terms;
-    Eigen::VectorXd x;
+    bool fast = false;
+    std::string csv;
+    std::vector<std::string> wanted;
 };
 
-Start start_from(const Surface& surface, const Element& element)
-{
-    Start start;
-    start.terms = embedding_terms(surface, element, {});
-    start.x.resize(3 * start.terms.vertex_count);
-    for (const Vertex v : surface.vertices()) {
-        start.x.segment<3>(3 * v.idx()) = surface.point(v) / element.la;
-    }
-    return start;
-}
-
-Start noisy(const shapes::Triangulation& mesh, double noise, unsigned seed)
-{
-    const Element element;
-    Surface surface = make_surface(shapes::join(mesh, element)).value();
-    shapes::add_noise(surface, noise * element.la, seed);
-    return start_from(surface, element);
-}
-
-Start moved_vertex(const shapes::Triangulation& mesh, unsigned seed)
-{
-    Start start = noisy(mesh, 0, 0);
-    Iterate iterate = iterate_at(start.terms, start.x);
-    minimise(start.terms, iterate, {});
-    start.x = iterate.x;
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> normal;
-    const int v = static_cast<int>(random() % start.terms.vertex_count);
-    const Vec3 move(normal(random), normal(random), normal(random));
-    start.x.segment<3>(3 * v) += 0.3 * move.normalized();
-    return start;
-}
-
-struct Case
-{
-    std::string name;
-    std::function<Start(unsigned seed)> make;
-    int repeats = 5;
-    double limit_s = 60;
-    bool slow_rivals = true;
-};
-
-shapes::Triangulation sphere(int level)
-{
-    shapes::Triangulation mesh = shapes::icosahedron();
-    for (int k = 0; k < level; ++k) {
-        mesh = shapes::subdivided(mesh);
-    }
-    return mesh;
-}
-
-std::vector<Case> cases()
-{
-    std::vector<Case> out;
-    for (int level = 0; level <= 4; ++level) {
-        const int elements = 30 << (2 * level);
-        out.push_back({"noise-" + std::to_string(elements),
-                       [=](unsigned seed) { return noisy(sphere(level), 0.1, seed); }, level < 4 ? 5 : 1, 60.0,
-                       level < 4});
-    }
-    for (int level = 0; level <= 6; ++level) {
-        const int elements = 30 << (2 * level);
-        out.push_back({"plain-" + std::to_string(elements), [=](unsigned) { return noisy(sphere(level), 0, 0); },
-                       level < 4 ? 5 : 1, level < 5 ? 60.0 : 300.0, level < 4});
-    }
-    for (int level = 0; level <= 3; ++level) {
-        const int elements = 30 << (2 * level);
-        out.push_back({"move-" + std::to_string(elements),
-                       [=](unsigned seed) { return moved_vertex(sphere(level), seed); }, 5, 60, true});
-    }
-    out.push_back({"move-capsule-600", [](unsigned seed) { return moved_vertex(shapes::capsule(4, 2), seed); }});
-    out.push_back({"capsule-600", [](unsigned seed) { return noisy(shapes::capsule(4, 2), 0.1, seed); }});
-    out.push_back({"torus-600", [](unsigned seed) { return noisy(shapes::torus(20, 10), 0.1, seed); }});
-    return out;
-}
-
-struct Result
+// Milliseconds, one entry per repeat.
+struct Times
 {
     std::vector<double> to_energy, to_gradient;
-    double energy = never;
 };
+
+using Results = std::map<std::string, std::map<std::string, Times>>; // by case and solver
 
 double median(std::vector<double> values)
 {
@@ -117,67 +46,140 @@ double median(std::vector<double> values)
 double first_time(const Trace& trace, const std::function<bool(const Sample&)>& reached)
 {
     const auto found = std::find_if(trace.begin(), trace.end(), reached);
-    return found == trace.end() ? never : found->seconds;
+    return found == trace.end() ? never : 1e3 * found->seconds;
 }
 
-std::vector<Solver> solvers(const Case& test)
+std::vector<Solver> solvers(const Case& test, const Settings& settings)
 {
-    std::vector<Solver> out = {ours(), liblbfgs()};
-    if (test.slow_rivals) {
-        for (const Solver& rival : {projected_newton(), ceres_levenberg_marquardt(), ceres_dogleg()}) {
-            out.push_back(rival);
-        }
+    std::vector<Solver> out = {ours()};
+    if (test.rivals) {
+        out.push_back(liblbfgs());
+    }
+    if (test.rivals && !settings.fast) {
+        out.insert(out.end(), {projected_newton(), ceres_levenberg_marquardt(), ceres_dogleg()});
     }
     return out;
 }
 
-void print_row(const std::string& name, const Result& result, const Result& reference)
+std::string cell(double milliseconds)
 {
-    const double energy = median(result.to_energy);
-    const double gradient = median(result.to_gradient);
-    std::printf("  %-30s %10.2f %12.2f %12.2f %12.2f\n", name.c_str(), 1e3 * energy, 1e3 * gradient,
-                energy / median(reference.to_energy), energy / median(reference.to_gradient));
+    char text[32];
+    std::snprintf(text, sizeof text, std::isfinite(milliseconds) ? "%.2f" : "-", milliseconds);
+    return text;
+}
+
+void print(const Case& test, const std::vector<Solver>& all, std::map<std::string, Times>& results)
+{
+    const Times& reference = results[all[0].name];
+    std::printf("%s\n  %-28s %12s %12s %12s %16s\n", test.name.c_str(), "", "1e-6 (ms)", "1e-8 (ms)", "1e-6 : ours",
+                "1e-6 : 1e-8 ours");
+    for (const Solver& solver : all) {
+        const double energy = median(results[solver.name].to_energy);
+        const double gradient = median(results[solver.name].to_gradient);
+        std::printf("  %-28s %12s %12s %12s %16s\n", solver.name.c_str(), cell(energy).c_str(), cell(gradient).c_str(),
+                    cell(energy / median(reference.to_energy)).c_str(),
+                    cell(energy / median(reference.to_gradient)).c_str());
+    }
     std::fflush(stdout);
 }
 
-void run(const Case& test)
+std::map<std::string, Times> measure(const Case& test, const std::vector<Solver>& all)
 {
-    const std::vector<Solver> all = solvers(test);
-    std::vector<Result> results(all.size());
+    std::map<std::string, Times> results;
+    std::vector<bool> is_long(all.size(), false);
     for (int repeat = 0; repeat < test.repeats; ++repeat) {
         const Start start = test.make(repeat + 1);
-        std::vector<Trace> traces;
+        std::map<std::string, Trace> traces;
         double best = never;
-        for (const Solver& solver : all) {
-            traces.push_back(solver.run(start.terms, start.x, test.limit_s));
-            for (const Sample& sample : traces.back()) {
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            if (is_long[k]) {
+                continue;
+            }
+            Trace& trace = traces[all[k].name] = all[k].run(start.terms, start.x, test.limit_s);
+            is_long[k] = trace.back().seconds > long_run;
+            for (const Sample& sample : trace) {
                 best = std::min(best, sample.energy);
             }
         }
-        for (std::size_t k = 0; k < all.size(); ++k) {
-            results[k].to_energy.push_back(
-                first_time(traces[k], [&](const Sample& s) { return s.energy <= best * (1 + 1e-6); }));
-            results[k].to_gradient.push_back(
-                first_time(traces[k], [](const Sample& s) { return s.gradient_norm <= 1e-8; }));
+        for (const auto& [name, trace] : traces) {
+            results[name].to_energy.push_back(
+                first_time(trace, [&](const Sample& s) { return s.energy <= best * (1 + 1e-6); }));
+            results[name].to_gradient.push_back(
+                first_time(trace, [](const Sample& s) { return s.gradient_norm <= 1e-8; }));
         }
     }
-    std::printf("%s\n  %-30s %10s %12s %12s %12s\n", test.name.c_str(), "", "1e-6 (ms)", "1e-8 (ms)", "1e-6 : ours",
-                "1e-6 : 1e-8 ours");
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        print_row(all[k].name, results[k], results[0]);
+    return results;
+}
+
+void append_csv(const Settings& settings, const Results& results)
+{
+    std::FILE* file = settings.csv.empty() ? nullptr : std::fopen(settings.csv.c_str(), "a");
+    if (file == nullptr) {
+        return;
+    }
+    for (const auto& [test, solvers] : results) {
+        for (const auto& [solver, times] : solvers) {
+            std::fprintf(file, "%s;%s;%s;%s\n", test.c_str(), solver.c_str(), cell(median(times.to_energy)).c_str(),
+                         cell(median(times.to_gradient)).c_str());
+        }
+    }
+    std::fclose(file);
+}
+
+// One line per ratio that must hold: the rival's time to the energy, by ours to the gradient.
+void judge_rival(const Results& results, const std::string& test, const std::string& rival, double least)
+{
+    const auto found = results.find(test);
+    if (found == results.end() || !found->second.contains(rival)) {
+        return;
+    }
+    const double ours_ms = median(found->second.at("rhombloom").to_gradient);
+    const double ratio = median(found->second.at(rival).to_energy) / ours_ms;
+    std::printf("%-6s %s: %s 1e-6 : ours 1e-8 = %s, at least %.2f\n", ratio >= least ? "holds" : "MISSED", test.c_str(),
+                rival.c_str(), std::isinf(ratio) && std::isfinite(ours_ms) ? "never" : cell(ratio).c_str(), least);
+}
+
+void judge(const Results& results)
+{
+    for (const char* test : {"move-480", "move-588"}) {
+        judge_rival(results, test, "liblbfgs", 1);
+        judge_rival(results, test, "Ceres LM", 6);
+    }
+    judge_rival(results, "noise-1920", "liblbfgs", 1 / 0.7);
+    judge_rival(results, "noise-1920", "Ceres LM", 14);
+    const auto first = results.find("plain-1920");
+    for (int elements = 7680; first != results.end() && elements <= 122880; elements *= 4) {
+        const auto found = results.find("plain-" + std::to_string(elements));
+        if (found != results.end()) {
+            const double power = std::log(median(found->second.at("rhombloom").to_gradient) /
+                                          median(first->second.at("rhombloom").to_gradient)) /
+                                 std::log(elements / 1920.0);
+            std::printf("%-6s plain-1920 to plain-%d: time grows as n^%.2f, at most n^1.50\n",
+                        power <= 1.5 ? "holds" : "MISSED", elements, power);
+        }
     }
 }
 
-bool is_fast(int argc, char** argv)
+Settings settings_from(int argc, char** argv)
 {
-    return std::any_of(argv + 1, argv + argc, [](const char* word) { return std::strcmp(word, "--fast") == 0; });
+    Settings settings;
+    for (int k = 1; k < argc; ++k) {
+        const std::string word = argv[k];
+        if (word == "--fast") {
+            settings.fast = true;
+        } else if (word == "--csv" && k + 1 < argc) {
+            settings.csv = argv[++k];
+        } else {
+            settings.wanted.push_back(word);
+        }
+    }
+    return settings;
 }
 
-bool is_wanted(const Case& test, int argc, char** argv)
+bool is_wanted(const Case& test, const Settings& settings)
 {
-    return argc == 1 + is_fast(argc, argv) || std::any_of(argv + 1, argv + argc, [&](const char* wanted) {
-               return test.name.compare(0, std::strlen(wanted), wanted) == 0;
-           });
+    return settings.wanted.empty() || std::any_of(settings.wanted.begin(), settings.wanted.end(),
+                                                  [&](const auto& word) { return test.name.starts_with(word); });
 }
 
 } // namespace
@@ -185,12 +187,18 @@ bool is_wanted(const Case& test, int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+    using namespace rhombloom::bench;
     omp_set_max_active_levels(0); // CHOLMOD's teams make Ceres slower, not faster
     omp_set_num_threads(1);
-    for (auto test : rhombloom::bench::cases()) {
-        test.slow_rivals = test.slow_rivals && !rhombloom::bench::is_fast(argc, argv);
-        if (rhombloom::bench::is_wanted(test, argc, argv)) {
-            rhombloom::bench::run(test);
+    const Settings settings = settings_from(argc, argv);
+    Results results;
+    for (const Case& test : cases()) {
+        if (is_wanted(test, settings)) {
+            const std::vector<Solver> all = solvers(test, settings);
+            results[test.name] = measure(test, all);
+            print(test, all, results[test.name]);
         }
     }
+    append_csv(settings, results);
+    judge(results);
 }
