@@ -51,9 +51,8 @@ std::string in_la(double mm, const ImportReport& report)
 std::string build_problem(const ImportReport& report)
 {
     constexpr double stretch_limit = 0.01;
-    if (report.crossings > 0) {
-        return "pairs of elements that cross each other: " + std::to_string(report.crossings) +
-               "; try more elements or a target without thin walls and narrow gaps";
+    if (report.crosses) {
+        return "elements cross each other: try more elements or a target without thin walls and narrow gaps";
     }
     if (report.embedding.converged && report.embedding.max_stretch <= stretch_limit) {
         return {};
@@ -108,7 +107,7 @@ std::string as_json(const ImportedMesh& made)
                                          {"min_defect_deg", degrees(r.defects.min)},
                                          {"max_defect_deg", degrees(r.defects.max)},
                                          {"hard_nodes", r.hard_nodes},
-                                         {"crossings", r.crossings},
+                                         {"crosses", r.crosses},
                                          {"scale", r.scale},
                                          {"shift_mm", {r.shift.x(), r.shift.y(), r.shift.z()}},
                                          {"repairs", r.repairs},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -84,6 +85,15 @@ struct Layout
     Vec3 rotation_deg = Vec3::Zero(); //!< about x, then y, then z, of the unfolded part
 };
 
+//! \brief How far an imported network was from its target when it was made, mm: root mean square and largest.
+struct ImportDistance
+{
+    double to_target_rms = 0; //!< from points spread evenly over the elements
+    double to_target_max = 0;
+    double from_target_rms = 0; //!< from points spread evenly over the target
+    double from_target_max = 0;
+};
+
 //! \brief A network of elements made from a mesh (mesh_import.h) becomes a new part named \p id.
 //! \details The network is stored, not the recipe: a replay needs neither the target nor the remeshing.
 struct Import
@@ -91,6 +101,7 @@ struct Import
     std::string id;
     std::string target;          //!< file beside the design with the repaired target in mm; empty: none
     std::string target_sha256;   //!< of that file
+    std::optional<ImportDistance> distance;
     std::vector<Vec3> positions; //!< mm
     std::vector<Quad> quads;     //!< counter-clockwise seen from outside; the first side is long
     std::vector<int> flipped;    //!< the elements that are turned over

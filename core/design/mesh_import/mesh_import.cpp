@@ -116,7 +116,15 @@ void fill_report(const Surface& surface, const FoundNetwork& found, ImportedMesh
     report.defects = defect_range(surface, result.element);
     report.hard_nodes = hard_nodes(surface, result.element);
     report.embedding = found.embedding;
-    report.crossings = crossings(surface);
+    report.crosses = has_crossings(surface);
+}
+
+//! To 0.001 mm, like the positions.
+ImportDistance stored(const Distance& distance)
+{
+    const auto rounded = [](double mm) { return std::round(1000 * mm) / 1000; };
+    return {rounded(distance.to_target.rms), rounded(distance.to_target.max), rounded(distance.from_target.rms),
+            rounded(distance.from_target.max)};
 }
 
 } // namespace
@@ -156,6 +164,7 @@ Expected<ImportedMesh> import_mesh(const TriangleMesh& mesh, const ImportOptions
     result.report.distance = distance(found->surface, MeshTree(std::move(whole)));
     fill_report(found->surface, *found, result);
     result.operation = import_of(found->surface, options.id);
+    result.operation.distance = stored(result.report.distance);
     return result;
 }
 

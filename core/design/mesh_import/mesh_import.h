@@ -39,9 +39,9 @@ struct ImportReport
     Distance distance; //!< mm
     double la = 0;     //!< mm, for distances in la
     EmbedReport embedding;
-    DefectRange defects; //!< radians
-    int hard_nodes = 0;  //!< where more than five acute corners meet, or a defect is within 10 degrees of its limit
-    int crossings = 0;   //!< pairs of elements that cross each other
+    DefectRange defects;  //!< radians
+    int hard_nodes = 0;   //!< where more than five acute corners meet, or a defect is within 10 degrees of its limit
+    bool crosses = false; //!< elements cross each other
     std::vector<std::string> repairs;
     double scale = 1;          //!< the target in mm is scale * file coordinates + shift
     Vec3 shift = Vec3::Zero(); //!< mm

@@ -5,9 +5,9 @@
 
 namespace rhombloom {
 
-int crossings(const Surface& surface)
+bool has_crossings(const Surface& surface)
 {
-    return static_cast<int>(self_intersections(surface).size());
+    return crosses_itself(surface);
 }
 
 } // namespace rhombloom

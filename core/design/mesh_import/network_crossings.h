@@ -4,7 +4,7 @@
 
 namespace rhombloom {
 
-//! \brief How many pairs of elements of an embedded network cross each other.
-int crossings(const Surface& surface);
+//! \brief Do elements of an embedded network cross each other?
+bool has_crossings(const Surface& surface);
 
 } // namespace rhombloom

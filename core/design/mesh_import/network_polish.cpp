@@ -13,7 +13,7 @@ constexpr double least_gain = 5e-4; // of the score, la
 constexpr double most_added = 0.02; // of the elements, by splits
 constexpr double reach = 3;         // edges of triangles over which a move is judged
 constexpr std::size_t most_places = 8;
-constexpr int patience = 3;     // rounds in vain after which it ends
+constexpr int patience = 4;     // rounds in vain after which it ends
 constexpr int alternatives = 4; // moves that are tried at a place, side by side
 
 //! Where something is to be done, and what.

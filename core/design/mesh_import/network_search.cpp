@@ -159,14 +159,14 @@ Expected<FoundNetwork> search_network(const TriangleMesh& target, const Element&
                       " elements comes to rest on this target: try more elements");
     }
     constexpr std::size_t finalists = 2;
-    const long work = 10000L * options.elements; // iterations times elements
+    const long work = 15000L * options.elements; // iterations times elements
     found.resize(std::min(found.size(), finalists));
     for (Trial& trial : found) {
         polish(trial, trials, stretch_price, work);
     }
     std::stable_sort(found.begin(), found.end(), [](const Trial& a, const Trial& b) {
-        return std::pair(crossings(a.found.surface), score(a, stretch_price)) <
-               std::pair(crossings(b.found.surface), score(b, stretch_price));
+        return std::pair(has_crossings(a.found.surface), score(a, stretch_price)) <
+               std::pair(has_crossings(b.found.surface), score(b, stretch_price));
     });
     Trial& best = found.front();
     polish(best, trials, 4 * stretch_price, work);
