@@ -39,10 +39,12 @@ SpringResponse pair_response(const SpringLaw& law, const SpringPair& pair, doubl
     return sum;
 }
 
-// The response with which a hinge enters the Hessian.
-HingeResponse hinge_response(const HingeLaw& law, double angle, const HessianOptions& options)
+// The response with which the k-th hinge enters the Hessian.
+HingeResponse hinge_response(const HingeLaw& law, const HingePoints& points, std::size_t k,
+                             const HessianOptions& options)
 {
-    HingeResponse response = hinge_response(law, angle);
+    const double angle = options.hinges == nullptr ? hinge_angle(points) : 0;
+    HingeResponse response = options.hinges == nullptr ? hinge_response(law, angle) : (*options.hinges)[k];
     if (options.hinge_blur > 0) {
         const double passed = angle / std::sqrt(angle * angle + options.hinge_blur * options.hinge_blur);
         const double share = std::max(options.hinge_floor, 0.5 * (1 - passed));
@@ -76,11 +78,9 @@ void add_spring(const EmbeddingTerms& terms, const SpringPair& pair, const std::
     add_block(hessian, blocks[2], -block);
 }
 
-void add_hinge(const EmbeddingTerms& terms, const HingeVertices& hinge, const std::array<int, 10>& blocks,
-               const VectorXd& x, const HessianOptions& options, BlockMatrix& hessian)
+void add_hinge(const HingeResponse& response, const HingeVertices& hinge, const std::array<int, 10>& blocks,
+               const HingePoints& points, BlockMatrix& hessian)
 {
-    const HingePoints points = hinge_points(x, hinge);
-    const HingeResponse response = hinge_response(terms.hinge_law, hinge_angle(points), options);
     if (response.stiffness == 0) {
         return;
     }
@@ -158,7 +158,9 @@ void embedding_hessian(const EmbeddingTerms& terms, const HessianPattern& patter
         add_spring(terms, terms.springs[k], pattern.spring_blocks[k], x, options.damping, hessian);
     }
     for (std::size_t k = 0; k < terms.hinges.size(); ++k) {
-        add_hinge(terms, terms.hinges[k], pattern.hinge_blocks[k], x, options, hessian);
+        const HingePoints points = hinge_points(x, terms.hinges[k]);
+        add_hinge(hinge_response(terms.hinge_law, points, k, options), terms.hinges[k], pattern.hinge_blocks[k], points,
+                  hessian);
     }
 }
 

@@ -41,6 +41,8 @@ struct HessianOptions
     double hinge_blur = 0;
     //! Stiffness of every hinge, at least, as a share of that of concave ones.
     double hinge_floor = 0;
+    //! What each hinge's moment and stiffness count as, instead of their own; null: their own.
+    const std::vector<HingeResponse>* hinges = nullptr;
 };
 
 void embedding_hessian(const EmbeddingTerms& terms, const HessianPattern& pattern, const Eigen::VectorXd& x,

@@ -35,7 +35,7 @@ class NewtonSystem;
 bool is_large(const EmbeddingTerms& terms);
 
 //! \brief Minimise the energy from \p iterate, leaving the best one there: quasi_newton() while far away, on large
-//! surfaces blurred_descent(), newton() in the end.
+//! surfaces interior_descent() and blurred_descent(), newton() in the end.
 MinimiseResult minimise(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options);
 
 //! \brief Newton's method with the exact Hessian where that is positive definite (NewtonSystem::direction()).
@@ -54,6 +54,13 @@ MinimiseResult quasi_newton(const EmbeddingTerms& terms, Iterate& iterate, const
 //! rows of elements per factorisation. In the seed hinges near flat therefore have part of the concave ones' stiffness.
 MinimiseResult blurred_descent(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& iterate,
                                const MinimiseOptions& options);
+
+//! \brief A primal-dual interior-point method for the concave hinges; the result is Stalled where it gets no farther.
+//! \details On a large surface whole regions are nearly flat, and which of their hinges are concave is open to the
+//! last. Slack and moment of every hinge are unknowns of their own, and how much of each bears load is settled for all
+//! of them together (Mehrotra 1992), in a dozen factorisations whatever the size.
+MinimiseResult interior_descent(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& iterate,
+                                const MinimiseOptions& options);
 
 //! \brief What all methods ask before each iteration: a reason to stop, if there is one.
 bool should_stop(const Iterate& iterate, const MinimiseOptions& options, MinimiseResult& result);

@@ -21,11 +21,13 @@ public:
     //! \return false if nothing made it positive definite.
     bool factor_blurred(const Iterate& iterate, HessianOptions options);
 
+    //! \brief Factor the Hessian as \p options say; false when it is not positive definite.
+    bool factor(const Iterate& iterate, const HessianOptions& options);
+
     //! \brief Solve with what was factored last.
     Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const;
 
 private:
-    bool factor(const Iterate& iterate, const HessianOptions& options);
     void lower_damping();
     void raise_damping();
 

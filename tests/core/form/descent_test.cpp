@@ -3,6 +3,7 @@
 #include "core/form/graph_laplacian.h"
 #include "core/form/limited_memory.h"
 #include "core/form/minimise.h"
+#include "core/form/newton_system.h"
 #include "tests/core/form/triangulations.h"
 
 namespace rhombloom {
@@ -93,6 +94,33 @@ TEST(Minimise, LargeSurfacesConvergeInFewIterations)
     EXPECT_EQ(result.reason, StopReason::Converged);
     EXPECT_LT(result.iterations, 250);
     EXPECT_NEAR(iterate.energy, 229.2594380267, 1e-8); // plain L-BFGS ends there as well
+}
+
+TEST(InteriorDescent, NeedsADozenFactorisations)
+{
+    const Surface surface = shapes::ball_surface(4);
+    const EmbeddingTerms terms = terms_of(surface);
+    Iterate iterate = iterate_at(terms, positions(surface));
+    ASSERT_EQ(quasi_newton(terms, iterate, {}).reason, StopReason::Stalled);
+    NewtonSystem system(terms, 1);
+    const MinimiseResult result = interior_descent(terms, system, iterate, {});
+    EXPECT_EQ(result.reason, StopReason::Converged);
+    EXPECT_LE(result.iterations, 15);
+    EXPECT_LE(iterate.gradient_norm(), 1e-9);
+    EXPECT_NEAR(iterate.energy, 229.2594380267, 1e-8);
+}
+
+TEST(InteriorDescent, NeverLeavesAWorseShape)
+{
+    Surface surface = shapes::ball_surface(3);
+    shapes::add_noise(surface, 40, 1); // far away, where the method is not meant to begin
+    const EmbeddingTerms terms = terms_of(surface);
+    Iterate iterate = iterate_at(terms, positions(surface));
+    const double before = iterate.energy;
+    NewtonSystem system(terms, 1);
+    interior_descent(terms, system, iterate, {});
+    EXPECT_LE(iterate.energy, before);
+    EXPECT_EQ(iterate_at(terms, iterate.x).energy, iterate.energy);
 }
 
 } // namespace
