@@ -1,7 +1,7 @@
 // bench_embedding [--fast] [--csv FILE] [CASE ...]: the embedding's solver against general ones on the same energy, in
 // one run, on one thread. Prints processor time (medians of the repeats) until the energy is within 1e-6 of the best
 // that anybody found and until no gradient component exceeds 1e-8, and how the ratios compare with what must hold.
-// CASE: a name or the beginning of one (embedding_cases.h); --fast: without Ceres and projected Newton; --csv: append
+// CASE: a name, or a kind like plain- (embedding_cases.h); --fast: without Ceres and projected Newton; --csv: append
 // the times to FILE, for embedding_plot.py.
 
 #include <omp.h>
@@ -178,8 +178,10 @@ Settings settings_from(int argc, char** argv)
 
 bool is_wanted(const Case& test, const Settings& settings)
 {
-    return settings.wanted.empty() || std::any_of(settings.wanted.begin(), settings.wanted.end(),
-                                                  [&](const auto& word) { return test.name.starts_with(word); });
+    return settings.wanted.empty() ||
+           std::any_of(settings.wanted.begin(), settings.wanted.end(), [&](const std::string& word) {
+               return word.ends_with('-') ? test.name.starts_with(word) : test.name == word;
+           });
 }
 
 } // namespace

@@ -1,0 +1,136 @@
+// bench_starts [RUNS] [SHAPE ...]: from which starts the embedding reaches the best energy that any of them found.
+// Every library shape (or those named) from the generator's positions, from RUNS (10) starts with 0.1 and 0.5 la of
+// noise per coordinate and from RUNS clouds of the shape's size. Prints how many converge (no gradient component over
+// 1e-8) and how many come within 1e-6 of the best energy, per shape and in all.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <map>
+
+#include "core/form/embedding.h"
+#include "core/model/base_shapes.h"
+#include "tests/core/form/triangulations.h"
+
+namespace rhombloom {
+namespace {
+
+struct Outcome
+{
+    bool converged = false;
+    double energy = 0;
+};
+
+Outcome outcome(Surface surface)
+{
+    const Element element;
+    embed(surface, element);
+    const EmbedReport report = measure(surface, element);
+    return {report.gradient_norm <= 1e-8, report.energy + report.guard_energy};
+}
+
+Surface noisy(Surface surface, double sigma, unsigned seed)
+{
+    shapes::add_noise(surface, sigma * Element{}.la, seed);
+    return surface;
+}
+
+// Normally distributed, as far from the centre on average as the shape's own vertices.
+Surface cloud(Surface surface, unsigned seed)
+{
+    Vec3 centre = Vec3::Zero();
+    for (const Vertex v : surface.vertices()) {
+        centre += surface.point(v) / double(surface.n_vertices());
+    }
+    double square = 0;
+    for (const Vertex v : surface.vertices()) {
+        square += (surface.point(v) - centre).squaredNorm() / double(surface.n_vertices());
+        surface.set_point(v, Vec3::Zero());
+    }
+    shapes::add_noise(surface, std::sqrt(square / 3), seed);
+    return surface;
+}
+
+using Outcomes = std::map<std::string, std::vector<Outcome>>; // by kind of start
+
+Outcomes outcomes(const std::string& name, unsigned runs)
+{
+    const Surface surface = base_shape(name, {}).value().surface;
+    Outcomes out;
+    out["generator"] = {outcome(surface)};
+    for (unsigned seed = 1; seed <= runs; ++seed) {
+        out["noise 0.1"].push_back(outcome(noisy(surface, 0.1, seed)));
+        out["noise 0.5"].push_back(outcome(noisy(surface, 0.5, seed)));
+        out["cloud"].push_back(outcome(cloud(surface, seed)));
+    }
+    return out;
+}
+
+double lowest(const Outcomes& all)
+{
+    double best = std::numeric_limits<double>::infinity();
+    for (const auto& [start, list] : all) {
+        for (const Outcome& o : list) {
+            best = o.converged ? std::min(best, o.energy) : best;
+        }
+    }
+    return best;
+}
+
+struct Sum
+{
+    int runs = 0;
+    int converged = 0;
+    int best = 0;
+};
+
+Sum count(const std::vector<Outcome>& list, double best)
+{
+    Sum sum;
+    for (const Outcome& o : list) {
+        ++sum.runs;
+        sum.converged += o.converged;
+        sum.best += o.energy <= best + 1e-6 * std::abs(best) + 1e-9;
+    }
+    return sum;
+}
+
+void print(const char* name, const std::map<std::string, Sum>& sums)
+{
+    std::printf("%-14s", name);
+    for (const char* start : {"generator", "noise 0.1", "noise 0.5", "cloud"}) {
+        const Sum& sum = sums.at(start);
+        std::printf("  %5d %5d of %-5d", sum.converged, sum.best, sum.runs);
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+}
+
+} // namespace
+} // namespace rhombloom
+
+int main(int argc, char** argv)
+{
+    using namespace rhombloom;
+    const unsigned runs = argc > 1 ? unsigned(std::max(1, std::atoi(argv[1]))) : 10;
+    std::vector<std::string> names(argv + std::min(argc, 2), argv + argc);
+    names = names.empty() ? base_shape_names() : names;
+    std::printf("converged, best energy; from  %-21s%-21s%-21s%s\n", "generator", "noise 0.1 la", "noise 0.5 la",
+                "cloud");
+    std::map<std::string, Sum> total;
+    for (const std::string& name : names) {
+        const Outcomes all = outcomes(name, runs);
+        const double best = lowest(all);
+        std::map<std::string, Sum> sums;
+        for (const auto& [start, list] : all) {
+            const Sum sum = sums[start] = count(list, best);
+            total[start].runs += sum.runs;
+            total[start].converged += sum.converged;
+            total[start].best += sum.best;
+        }
+        print(name.c_str(), sums);
+    }
+    print("in all", total);
+}
