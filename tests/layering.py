@@ -1,6 +1,6 @@
 """The arrows of the house: core <- exporters <- apps, and inside core model <- form, model <- design -> form,
-building -> design. No Cairo, FreeType, tinygltf, Draco or qpdf type in a header outside its own exporter; core knows
-no file format but the design file."""
+building -> design -> form. No type of Cairo, FreeType, HarfBuzz, libdeflate, tinygltf, Draco or qpdf in a header outside
+its own exporter; core knows no file format but the design file."""
 import pathlib
 import re
 import sys
@@ -19,8 +19,8 @@ ALLOWED = {
                  "apps/studio"},
     "apps/studio": {"core", "core/model", "core/form", "core/design", "core/building", "exporters", "apps/studio"},
 }
-FOREIGN = re.compile(r"^(cairo|ft2build|freetype|draco/|tiny_gltf|qpdf/|polyclipping|httplib|CLI/)", re.I)
-FOREIGN_IN_CORE = re.compile(r"^(cairo|ft2build|freetype|draco/|tiny_gltf|qpdf/|httplib|CLI/)", re.I)
+FOREIGN = re.compile(r"^(cairo|ft2build|freetype|hb\b|libdeflate|draco/|tiny_gltf|qpdf/|polyclipping|httplib|CLI/)", re.I)
+FOREIGN_IN_CORE = re.compile(r"^(cairo|ft2build|freetype|hb\b|libdeflate|draco/|tiny_gltf|qpdf/|httplib|CLI/)", re.I)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 problems = []

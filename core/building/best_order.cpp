@@ -2,6 +2,7 @@
 #include <initializer_list>
 
 #include "core/building/orders.h"
+#include "core/form/parallel.h"
 
 // The paper builds every closed shape to the end and reopens it. Here each reopening has to earn its steps: closing is
 // kept only where it makes the whole easier, because on most models a hole left open costs less than it saves.
@@ -30,49 +31,102 @@ double cost(const Scorecard& s, const Scorecard& paper)
            0.7 * ratio(s.view_turns, std::max(1, paper.view_turns)) + 0.01 * s.negative_defect_inserts;
 }
 
+//! A way to plan: which holes to close for a time, and what to like.
+struct Choice
+{
+    std::vector<char> closed;
+    Taste taste;
+};
+
+//! A plan and what it costs; no plan that obeys the hard rules costs more than any.
+struct Candidate
+{
+    AssemblyPlan plan;
+    double cost = 1e300;
+};
+
 struct Search
 {
     const PlanSources& sources;
     Scorecard paper;
     Holes holes;
-    AssemblyPlan best = {};
-    double best_cost = 1e300;
+    Candidate best = {};
 
-    bool consider(const std::vector<char>& closed, const Taste& taste)
+    Candidate planned(const Choice& choice) const
     {
-        AssemblyPlan plan = finish_plan(
-            sources, greedy_order(sources, open_targets(sources.history, holes, closed, sources.last), taste),
-            Order::Best);
-        const double its_cost = cost(plan.scorecard, paper);
-        if (its_cost >= best_cost - 1e-9 || !plan_problems(sources.replay, sources.element, plan).empty()) {
+        const auto targets = open_targets(sources.history, holes, choice.closed, sources.last);
+        Candidate made;
+        made.plan = finish_plan(sources, greedy_order(sources, targets, choice.taste), Order::Best);
+        if (plan_problems(sources.replay, sources.element, made.plan).empty()) {
+            made.cost = cost(made.plan.scorecard, paper);
+        }
+        return made;
+    }
+
+    bool consider(Candidate candidate)
+    {
+        if (candidate.cost >= best.cost - 1e-9) {
             return false;
         }
-        best_cost = its_cost;
-        best = std::move(plan);
+        best = std::move(candidate);
         return true;
     }
+
+    //! Plans all choices at once and keeps the first that is better; returns its index, or -1.
+    int consider_first(const std::vector<Choice>& choices)
+    {
+        std::vector<Candidate> candidates = planned(choices);
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            if (consider(std::move(candidates[i]))) {
+                return static_cast<int>(i);
+            }
+        }
+        return -1;
+    }
+
+    std::vector<Candidate> planned(const std::vector<Choice>& choices) const
+    {
+        std::vector<Candidate> candidates(choices.size());
+        parallel_tasks(default_threads(), static_cast<int>(choices.size()),
+                       [&](int i) { candidates[i] = planned(choices[i]); });
+        return candidates;
+    }
 };
+
+//! Goes through the holes once and changes those where that is better. Several are tried ahead at the same time; what
+//! was tried before a change is tried again, so that the result is that of one after the other.
+bool improve_closings(Search& search, std::vector<char>& closed, const Taste& taste)
+{
+    constexpr std::size_t ahead = 4;
+    bool better = false;
+    for (std::size_t first = 0; first < closed.size();) {
+        std::vector<Choice> choices;
+        for (std::size_t i = first; i < std::min(closed.size(), first + ahead); ++i) {
+            choices.push_back({closed, taste});
+            choices.back().closed[i] ^= 1;
+        }
+        const int found = search.consider_first(choices);
+        if (found < 0) {
+            first += choices.size();
+        } else {
+            closed = choices[found].closed;
+            first += static_cast<std::size_t>(found) + 1;
+            better = true;
+        }
+    }
+    return better;
+}
 
 //! Closes a hole only where that pays: from all open (or all closed, when open ones do not work), changing one after
 //! the other.
 std::vector<char> choose_closings(Search& search, const Taste& taste)
 {
     std::vector<char> closed(search.holes.count, 0);
-    if (!search.consider(closed, taste)) {
+    if (!search.consider(search.planned({closed, taste}))) {
         closed.assign(closed.size(), 1);
-        search.consider(closed, taste);
+        search.consider(search.planned({closed, taste}));
     }
-    bool better = true;
-    for (int pass = 0; pass < most_passes && better; ++pass) {
-        better = false;
-        for (char& hole : closed) {
-            hole = hole == 0;
-            if (search.consider(closed, taste)) {
-                better = true;
-            } else {
-                hole = hole == 0;
-            }
-        }
+    for (int pass = 0; pass < most_passes && improve_closings(search, closed, taste); ++pass) {
     }
     return closed;
 }
@@ -82,11 +136,15 @@ void choose_taste(Search& search, const std::vector<char>& closed)
 {
     Taste taste;
     const auto vary = [&](double Taste::*liking, std::initializer_list<double> values) {
+        std::vector<Choice> choices;
         for (const double value : values) {
-            Taste other = taste;
-            other.*liking = value;
-            if (search.consider(closed, other)) {
-                taste = other;
+            choices.push_back({closed, taste});
+            choices.back().taste.*liking = value;
+        }
+        std::vector<Candidate> candidates = search.planned(choices);
+        for (std::size_t i = 0; i < choices.size(); ++i) {
+            if (search.consider(std::move(candidates[i]))) {
+                taste = choices[i].taste;
             }
         }
     };
@@ -104,12 +162,12 @@ AssemblyPlan best_plan(const PlanSources& sources)
     Search search{sources, finish_plan(sources, paper_order(sources), Order::Paper).scorecard, holes(sources.history)};
     const std::vector<char> closed = choose_closings(search, {});
     choose_taste(search, closed);
-    if (search.best.steps.empty() && sources.last < 0) {
+    if (search.best.plan.steps.empty() && sources.last < 0) {
         return finish_plan(sources, paper_order(sources), Order::Best);
     }
-    const bool too_open = static_cast<double>(search.best.scorecard.exposure) >
+    const bool too_open = static_cast<double>(search.best.plan.scorecard.exposure) >
                           most_exposure * static_cast<double>(search.paper.exposure);
-    return sources.last >= 0 && too_open ? AssemblyPlan() : std::move(search.best);
+    return sources.last >= 0 && too_open ? AssemblyPlan() : std::move(search.best.plan);
 }
 
 } // namespace rhombloom

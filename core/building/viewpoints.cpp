@@ -137,6 +137,7 @@ Coverage::Coverage(const Surface& surface)
 
 std::shared_ptr<const Coverage> StageCoverage::operator()(int stage)
 {
+    const std::scoped_lock lock(making_);
     auto& made = made_[stage];
     if (!made) {
         made = std::make_shared<Coverage>(stage_surface(replay_, stage));

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 
 #include "core/building/assembly_plan.h"
 
@@ -48,7 +49,7 @@ private:
     float tolerance_ = 0;
 };
 
-//! \brief The coverage of each stage of a replay, made when it is first asked for.
+//! \brief The coverage of each stage of a replay, made when it is first asked for. May be asked from several threads.
 class StageCoverage
 {
 public:
@@ -57,6 +58,7 @@ public:
 
 private:
     const Replay& replay_;
+    std::mutex making_;
     std::map<int, std::shared_ptr<const Coverage>> made_;
 };
 
