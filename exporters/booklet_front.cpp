@@ -86,15 +86,18 @@ void removed(PdfCanvas& canvas)
 }
 
 const Sample samples[] = {
-    {"Red: the element to put in now. Every picture shows the model as it stands, from outside.", red},
+    {"Red, the only dark one: the element to put in now. Every picture shows the model as it stands, from outside.",
+     red},
     {"Thick lines: the sides to join in this step. The arrow shows where the element comes from.", joined},
     {"Dots: a flipped element. Turn it over before you hook it in. Without dots, the front looks outward.", dotted},
-    {"Blue-grey: seen from inside, through an opening.", from_inside},
+    {"Blue-grey, in a print without colours the darker grey: seen from inside, through an opening.", from_inside},
     {"Thin grey lines: what is still missing.", ghost},
     {"A number on an element: the step in which it was put in.", named},
     {"Circle: the place magnified, with the real hooks. Look which part lies over which.", magnified},
     {"The view stays the same as long as it can. When it changes, turn the model in your hands as written.", turned},
-    {"White with a cross: take this element out again, to open the shape for the next part.", removed}};
+    {"White with a cross: take this element out again. A coloured bar behind the words says: here something is opened "
+     "for the next part; the arrow points away.",
+     removed}};
 
 double text_width(const BookletSources& s)
 {
@@ -110,6 +113,16 @@ double item(PdfCanvas& canvas, const BookletSources& sources, double y, const st
         next = canvas.paragraph(words, Vec2(page_margin + 14, y), text_width(sources) - 14, {11}, 15) + 4;
     });
     return next;
+}
+
+//! Many materials have their thickness in the name.
+std::string sheet_words(const std::string& material, double thickness)
+{
+    const std::string thick = to_fixed(thickness, 2) + " mm";
+    if (material.find(" " + thick) != std::string::npos) {
+        return material;
+    }
+    return (material.empty() ? "Sheet" : material) + ", " + thick + " thick";
 }
 
 void draw_contents(PdfCanvas& canvas, const BookletSources& sources, double y)
@@ -182,8 +195,8 @@ void draw_parts(PdfCanvas& canvas, const BookletSources& sources, const BookletO
                                                          "; the others are taken out again on the way)"
                                                    : ""));
     y = item(canvas, sources, y,
-             (options.material.empty() ? "Sheet, " : options.material + ", ") + to_fixed(sources.element.thickness, 2) +
-                 " mm thick" + (options.sheets > 0 ? ", cut from " + plural(options.sheets, "sheet") : ""));
+             sheet_words(options.material, sources.element.thickness) +
+                 (options.sheets > 0 ? ", cut from " + plural(options.sheets, "sheet") : ""));
     y = item(canvas, sources, y, "A table, good light and " + duration(score.minutes));
     y = item(canvas, sources, y, "A few small clips or some tape hold the rim while you work");
     y = item(canvas, sources, y, "No glue and no tools: try the joint on the next page with two elements first");

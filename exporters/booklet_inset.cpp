@@ -37,7 +37,7 @@ Vec2 free_corner(const StepPlace& place, const Vec2& at, double radius)
     double farthest = -1;
     Vec2 best = Vec2::Zero();
     for (const double x : {place.box.max.x() - edge, place.box.min.x() + edge}) {
-        for (const double y : {place.box.max.y() - edge, place.centre.y() - place.half.y() + radius - 6}) {
+        for (const double y : {place.box.max.y() - edge, place.centre.y() - place.half.y() + radius - 1}) {
             if ((Vec2(x, y) - at).norm() > farthest + 1) {
                 farthest = (Vec2(x, y) - at).norm();
                 best = Vec2(std::round(x), std::round(y));

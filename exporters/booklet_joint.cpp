@@ -71,15 +71,54 @@ void draw_cross(PdfCanvas& canvas, double half)
     }
 }
 
-double panel_scale(const Element& e, double width)
+void extend(Box& box, const Box& other)
 {
-    return 1.1 * width / (2 * e.lb + 2 * e.la * std::cos(e.alpha) + 0.4 * e.la);
+    box.min = box.min.cwiseMin(other.min);
+    box.max = box.max.cwiseMax(other.max);
 }
 
-Scene panel_scene(const Surface& surface, const Element& e, double scale)
+//! Bounds of both pieces with their hooks, mm, seen from above with y down.
+Box bounds_of(const Pair& pair, const BookletSources& sources)
 {
-    const Vec3 middle(e.lb + 0.5 * e.la * std::cos(e.alpha), 0.5 * e.la * std::sin(e.alpha), 0);
-    return {&surface, {from_above(), middle, scale}};
+    const Surface surface = flat_pair(sources.element, pair);
+    const Scene scene{&surface, {from_above(), Vec3::Zero(), 1}};
+    Box box;
+    for (const int f : {0, 1}) {
+        for (const Vec2& p : piece_on_paper(scene, Face(f), sources.contour)) {
+            extend(box, {p, p});
+        }
+    }
+    return box;
+}
+
+Vec2 figure_size(const Vec2& panel)
+{
+    return panel - Vec2(30, 62); // below the words, with room for the arrow
+}
+
+//! The first piece stays where it is from panel to panel: bounds are those of all panels with the same facing.
+struct Frames
+{
+    Box front, back;
+    double scale = 1;
+
+    Scene scene(const Surface& surface, Facing facing) const
+    {
+        const Box& box = facing == Facing::Front ? front : back;
+        const Vec2 middle = (box.min + box.max) / 2;
+        return {&surface, {from_above(), Vec3(middle.x(), -middle.y(), 0), scale}};
+    }
+};
+
+Frames frames_for(const std::vector<Panel>& panels, const BookletSources& sources, const Vec2& panel_size)
+{
+    Frames frames;
+    for (const Panel& panel : panels) {
+        extend(panel.pair.facing == Facing::Front ? frames.front : frames.back, bounds_of(panel.pair, sources));
+    }
+    const Vec2 widest = (frames.front.max - frames.front.min).cwiseMax(frames.back.max - frames.back.min);
+    frames.scale = figure_size(panel_size).cwiseQuotient(widest).minCoeff();
+    return frames;
 }
 
 //! Bodies first, A under B; then what lies over B again.
@@ -110,20 +149,28 @@ void draw_close_up(PdfCanvas& canvas, const Scene& scene, const PieceContour& co
     canvas.clipped_to_disc(Vec2::Zero(), radius - 0.5, [&] { draw_pair(canvas, near, contour, Over::Hooked); });
 }
 
-void draw_panel(PdfCanvas& canvas, const BookletSources& sources, int index, const Panel& panel, const Vec2& corner,
-                const Vec2& size)
+struct PanelPlace
 {
+    int number = 1;
+    Vec2 corner, size;
+};
+
+void draw_panel(PdfCanvas& canvas, const BookletSources& sources, const Panel& panel, const PanelPlace& place,
+                const Frames& frames)
+{
+    const Vec2& corner = place.corner;
+    const Vec2& size = place.size;
     const Surface surface = flat_pair(sources.element, panel.pair);
-    const Scene scene = panel_scene(surface, sources.element, panel_scale(sources.element, size.x()));
+    const Scene scene = frames.scene(surface, panel.pair.facing);
     canvas.outline({corner, corner + Vec2(size.x(), 0), corner + size, corner + Vec2(0, size.y())}, {0.6, 0xB0B0B0, 0});
     canvas.tagged("P", [&] {
-        canvas.text(std::to_string(index), corner + Vec2(8, 22), {18});
+        canvas.text(std::to_string(place.number), corner + Vec2(8, 22), {18});
         canvas.paragraph(panel.words, corner + Vec2(28, 15), size.x() - 36, {9.5}, 12);
     });
     canvas.figure(panel.words, [&] {
-        canvas.shifted(corner + Vec2(size.x() / 2, 0.6 * size.y()), [&] {
+        canvas.shifted(corner + Vec2(size.x() / 2, size.y() / 2 + 18), [&] {
             if (panel.close_up) {
-                draw_close_up(canvas, scene, sources.contour, 0.34 * size.y());
+                draw_close_up(canvas, scene, sources.contour, 0.36 * size.y());
             } else {
                 draw_pair(canvas, scene, sources.contour, panel.over);
             }
@@ -161,9 +208,10 @@ void draw_joint(PdfCanvas& canvas, const BookletSources& sources)
     const PaperSize& paper = sources.layout.paper;
     const double gap = 14;
     const Vec2 size((paper.width - 2 * page_margin - gap) / 2, (paper.height - 2 * page_margin - 50 - 2 * gap) / 3);
+    const Frames frames = frames_for(panels, sources, size);
     for (int i = 0; i < static_cast<int>(panels.size()); ++i) {
         const Vec2 corner(page_margin + (i % 2) * (size.x() + gap), page_margin + 50 + (i / 2) * (size.y() + gap));
-        draw_panel(canvas, sources, i + 1, panels[i], corner, size);
+        draw_panel(canvas, sources, panels[i], {i + 1, corner, size}, frames);
     }
 }
 

@@ -10,7 +10,7 @@ namespace {
 constexpr double header = 34; // above the cells
 constexpr double footer = 30; // below them
 constexpr double gutter = 14; // between them
-constexpr double words = 66;  // above a figure, for the step's text
+constexpr double words = 70;  // above a figure, for the step's text
 
 std::vector<Chapter> chapters(const Replay& replay, const AssemblyPlan& plan)
 {

@@ -1,7 +1,9 @@
 #include "exporters/booklet_pages.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/text.h"
 
@@ -49,8 +51,49 @@ std::vector<Face> all_faces(const Surface& surface)
 void draw_faces(PdfCanvas& canvas, const Scene& scene, const std::vector<Face>& faces, const std::vector<char>& marked)
 {
     for (const Face f : painter_order(scene, faces)) {
-        draw_element(canvas, scene, f, !marked.empty() && marked[f.idx()] ? Paint::Chapter : Paint::Built);
+        draw_element(canvas, scene, f, !marked.empty() && marked[f.idx()] ? Paint::Chapter : Paint::Faint);
     }
+}
+
+Camera model_camera(const BookletSources& sources, int view, const Vec2& half)
+{
+    return fitted_camera(sources.replay.surface, all_faces(sources.replay.surface), {view}, 0.97 * half);
+}
+
+//! Where the plane of a triangle is at (x, y), or nothing beside it.
+std::optional<double> height_at(const std::array<Vec3, 3>& t, const Vec3& at)
+{
+    const auto turn = [](const Vec3& a, const Vec3& b, const Vec3& c) {
+        return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+    };
+    const double area = turn(t[0], t[1], t[2]);
+    const double u = turn(at, t[1], t[2]) / area;
+    const double v = turn(t[0], at, t[2]) / area;
+    const bool inside = area != 0 && u >= 0 && v >= 0 && u + v <= 1;
+    return inside ? std::optional(u * t[0].z() + v * t[1].z() + (1 - u - v) * t[2].z()) : std::nullopt;
+}
+
+//! The highest point of the model above its centre of mass: it hangs there as it stands. Where there is nothing above
+//! the centre: the highest of all.
+Vec3 hanging_point(const Surface& surface)
+{
+    Vec3 centre = Vec3::Zero();
+    Vec3 highest = Vec3::Constant(-1e300);
+    for (const Face f : surface.faces()) {
+        centre += element_centre(surface, f) / static_cast<double>(surface.n_faces());
+    }
+    std::optional<double> top;
+    for (const Face f : surface.faces()) {
+        const Quad q = quad(surface, f);
+        const auto corner = [&](int k) -> Vec3 { return surface.point(Vertex(q[k])); };
+        for (const auto& t :
+             {std::array{corner(0), corner(1), corner(2)}, std::array{corner(0), corner(2), corner(3)}}) {
+            const std::optional<double> z = height_at(t, centre);
+            top = z && (!top || *z > *top) ? z : top;
+            highest = t[0].z() > highest.z() ? t[0] : highest;
+        }
+    }
+    return top && *top > centre.z() ? Vec3(centre.x(), centre.y(), *top) : highest;
 }
 
 } // namespace
@@ -66,7 +109,7 @@ Camera draw_model(PdfCanvas& canvas, const BookletSources& sources, const Vec2& 
     const Surface& surface = sources.replay.surface;
     const std::vector<Face> faces = all_faces(surface);
     const bool hooked = static_cast<int>(faces.size()) <= most_hooked;
-    Scene scene{&surface, fitted_camera(surface, faces, {view}, 0.97 * half)};
+    const Scene scene{&surface, model_camera(sources, view, half)};
     std::vector<Piece> pieces;
     for (const Face f : painter_order(scene, faces)) {
         const bool hooks = hooked && from_outside(scene, f) && seen_part(scene, f, faces) > 0.95;
@@ -143,8 +186,9 @@ void draw_last_page(PdfCanvas& canvas, const BookletSources& sources)
     const Vec2 centre(paper.width / 2, paper.height * 0.47);
     const Vec2 half(text_width(sources) / 2, paper.height * 0.29);
     canvas.figure("The finished model, hung from its top.", [&] {
-        canvas.stroke({Vec2(centre.x(), page_margin + 44), Vec2(centre.x(), centre.y() - half.y() * 0.6)},
-                      {2.2, 0x404040, 0}); // the cord; the model hides its lower end
+        const Camera camera = model_camera(sources, sources.layout.places.back().view, half);
+        const Vec2 top = centre + project(camera, hanging_point(sources.replay.surface));
+        canvas.stroke({Vec2(top.x(), page_margin + 44), top}, {2.2, 0x404040, 0}); // the cord
         draw_model(canvas, sources, centre, half, sources.layout.places.back().view, hatch ? last.element : -1);
     });
     std::string words = "To hang it, lead the cord through the hole where corners meet at the top, or hook the last "
@@ -152,7 +196,7 @@ void draw_last_page(PdfCanvas& canvas, const BookletSources& sources)
     if (hatch) {
         const std::vector<int> names =
             element_names(sources.plan, sources.replay.surface.n_faces(), static_cast<int>(sources.plan.steps.size()));
-        words += "The red element is the bulb hatch: to reach the bulb, unhook it, and afterwards hook it in again as "
+        words += "The dark red element is the bulb hatch: to reach the bulb, unhook it, and afterwards hook it in again as "
                  "step " +
                  std::to_string(sources.plan.steps.size()) + " shows (its neighbours are";
         for (std::size_t i = 0; i < last.joins.size(); ++i) {

@@ -276,7 +276,7 @@ void StepDrawing::draw_words() const
         canvas.text("Step " + std::to_string(k + 1), box.min + Vec2(8, 25), {21, 0x000000, Align::Left, 0});
     });
     canvas.tagged("P", [&] {
-        canvas.paragraph(step_words(sources, k, names), box.min + Vec2(8, 42), width - 16, {9, 0x202020}, 11.5);
+        canvas.paragraph(step_words(sources, k, names), box.min + Vec2(8, 41), width - 16, {10, 0x101010}, 12);
     });
     draw_turn();
 }

@@ -41,6 +41,10 @@ Line edge_line(Paint paint)
     switch (paint) {
     case Paint::Ghost:
         return {0.35, colour::ghost_line, 0};
+    case Paint::Faint:
+        return {0.35, colour::faint_line, 0};
+    case Paint::Chapter:
+        return {0.8, colour::line, 0};
     case Paint::Next:
         return {0.9, 0x000000, 0};
     case Paint::Removed:
@@ -152,12 +156,15 @@ unsigned element_tint(const Scene& scene, Face f, Paint paint)
     if (paint == Paint::Ghost || paint == Paint::Removed) {
         return colour::ghost;
     }
+    if (paint == Paint::Faint) {
+        return from_outside(scene, f) ? colour::faint : colour::faint_inside;
+    }
     if (!from_outside(scene, f)) {
         return colour::inside;
     }
     const double light = shade(scene, element_normal(*scene.surface, f));
     if (paint == Paint::Chapter) {
-        return mixed(0xE8C08A, 0xF8E3C4, light);
+        return mixed(colour::chapter_dark, colour::chapter_light, light);
     }
     return mixed(colour::built_dark, colour::built_light, light);
 }
@@ -192,7 +199,10 @@ void add_common_edges(const Polygon& element, const Polygon& part, std::vector<P
 void draw_flip_dots(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint)
 {
     if (has_dots(scene, f, paint)) {
-        draw_dots(canvas, outline_of(scene, f), paint == Paint::Next ? 0xFFFFFF : colour::dot);
+        draw_dots(canvas, outline_of(scene, f),
+                  paint == Paint::Next    ? 0xFFFFFF
+                  : paint == Paint::Faint ? colour::ghost_line
+                                          : colour::dot);
     }
 }
 

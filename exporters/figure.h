@@ -13,7 +13,11 @@ inline constexpr unsigned next = 0xC81E1E;
 inline constexpr unsigned built_light = 0xF7F6F3;
 inline constexpr unsigned built_dark = 0xD2D1CC;
 inline constexpr unsigned inside = 0xB8C4D6;
-inline constexpr unsigned chapter = 0xF2D3A6;
+inline constexpr unsigned chapter_light = 0xF0CD94;
+inline constexpr unsigned chapter_dark = 0xDDB06A;
+inline constexpr unsigned faint = 0xFCFCFC;
+inline constexpr unsigned faint_inside = 0xEAEDF2;
+inline constexpr unsigned faint_line = 0x8C8C8C;
 inline constexpr unsigned ghost = 0xFFFFFF;
 inline constexpr unsigned ghost_line = 0xCDCDCD;
 inline constexpr unsigned line = 0x3A3A3A;
@@ -54,7 +58,8 @@ enum class Paint
 {
     Ghost,
     Built,
-    Chapter,
+    Chapter, //!< of the chapter that a picture announces
+    Faint,   //!< there, but not what the picture is about
     Next,
     Removed
 };
