@@ -30,33 +30,64 @@ double reach_of(const Polygon& p)
     return reach;
 }
 
-//! The corner of the figure that is farthest from the element.
-Vec2 free_corner(const StepPlace& place, const Vec2& at, double radius)
+//! The corner of the figure where a detail hides least of the model, near the element but not over it.
+Vec2 free_corner(const StepPlace& place, const Vec2& at, double radius, const std::vector<Vec2>& model)
 {
     const double edge = radius + 5;
-    double farthest = -1;
+    const double size = (place.box.max - place.box.min).norm();
+    double least = 1e300;
     Vec2 best = Vec2::Zero();
     for (const double x : {place.box.max.x() - edge, place.box.min.x() + edge}) {
         for (const double y : {place.box.max.y() - edge, place.centre.y() - place.half.y() + radius - 1}) {
-            if ((Vec2(x, y) - at).norm() > farthest + 1) {
-                farthest = (Vec2(x, y) - at).norm();
-                best = Vec2(std::round(x), std::round(y));
+            const Vec2 corner(std::round(x), std::round(y));
+            const double way = (corner - at).norm();
+            const auto hidden =
+                std::count_if(model.begin(), model.end(), [&](const Vec2& p) { return (p - corner).norm() < radius; });
+            const double cost = static_cast<double>(hidden) / static_cast<double>(model.size()) + 0.15 * way / size +
+                                (way < 1.8 * radius ? 10 - way / size : 0);
+            if (cost < least - 1e-9) {
+                least = cost;
+                best = corner;
             }
         }
     }
     return best;
 }
 
-Inset inset_at(const StepPlace& place, const Vec3& look_at, double extent)
+//! Where the elements there and the step's own lie on the page.
+std::vector<Vec2> model_on_page(const StepPlace& place, const Scene& scene, Face own, const std::vector<Face>& others)
 {
-    const double width = place.box.max.x() - place.box.min.x();
+    std::vector<Vec2> points = {place.centre + project(scene.camera, element_centre(*scene.surface, own))};
+    for (const Face f : others) {
+        points.push_back(place.centre + project(scene.camera, element_centre(*scene.surface, f)));
+    }
+    return points;
+}
+
+double inset_radius(const StepPlace& place)
+{
+    const Vec2 size = place.box.max - place.box.min;
+    return std::clamp(0.185 * std::min(size.x(), 1.1 * size.y()), 30.0, 60.0);
+}
+
+Inset inset_at(const StepPlace& place, const Vec3& look_at, double extent, const std::vector<Vec2>& model)
+{
     Inset inset;
-    inset.radius = std::clamp(0.185 * std::min(width, 1.1 * (place.box.max.y() - place.box.min.y())), 30.0, 60.0);
-    inset.centre = free_corner(place, place.centre + project(place.camera, look_at), inset.radius);
+    inset.radius = inset_radius(place);
+    inset.centre = free_corner(place, place.centre + project(place.camera, look_at), inset.radius, model);
     inset.camera = place.camera;
     inset.camera.look_at = look_at;
     inset.camera.scale *= inset.radius / extent;
     return inset;
+}
+
+//! How far the detail reaches from the element's centre, in the figure's points: with its surroundings, but a thin one
+//! as large as it fits.
+double detail_extent(const Polygon& p, double radius)
+{
+    constexpr double wanted = 45 / mm2_per_pt2;
+    const double reach = reach_of(p);
+    return std::clamp(radius * std::sqrt(polygon_area(p) / wanted), 1.05 * reach, 1.5 * reach);
 }
 
 bool hard_to_see(const Scene& scene, Face f, const std::vector<Face>& others)
@@ -71,7 +102,8 @@ std::optional<Inset> inset_for(int k, const Step& step, const StepPlace& place, 
 {
     const Polygon p = outline_of(scene, f);
     if (hard_to_see(scene, f, others)) {
-        return inset_at(place, element_centre(*scene.surface, f), 1.5 * reach_of(p));
+        return inset_at(place, element_centre(*scene.surface, f), detail_extent(p, inset_radius(place)),
+                        model_on_page(place, scene, f, others));
     }
     if (k >= first_steps || step.joins.empty()) {
         return {};
@@ -79,7 +111,7 @@ std::optional<Inset> inset_for(int k, const Step& step, const StepPlace& place, 
     const int side = step.joins.front().side;
     const Quad q = quad(*scene.surface, f);
     const Vec3 middle = (scene.surface->point(Vertex(q[side])) + scene.surface->point(Vertex(q[(side + 1) % 4]))) / 2;
-    return inset_at(place, middle, 0.58 * (p[(side + 1) % 4] - p[side]).norm());
+    return inset_at(place, middle, 0.58 * (p[(side + 1) % 4] - p[side]).norm(), model_on_page(place, scene, f, others));
 }
 
 } // namespace

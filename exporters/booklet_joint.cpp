@@ -132,7 +132,7 @@ void draw_pair(PdfCanvas& canvas, const Scene& scene, const PieceContour& contou
         draw_flaps(canvas, scene, a, contour, 1, over == Over::Hooked ? 2 : 1);
     }
     if (over == Over::FirstHook || over == Over::Nothing) {
-        draw_arrow(canvas, scene, Face(1), {0}, 1);
+        draw_arrow(canvas, scene, Face(1), {{0}});
     }
     if (over == Over::Wrong) {
         draw_cross(canvas, 60);

@@ -41,8 +41,8 @@ Box cell_box(const PaperSize& paper, const Chapter& chapter, int cell)
 
 void place_in_cell(StepPlace& place)
 {
-    const Vec2 low = place.box.min + Vec2(6, words);
-    const Vec2 high = place.box.max - Vec2(6, 8);
+    const Vec2 low = place.box.min + Vec2(10, words);
+    const Vec2 high = place.box.max - Vec2(10, 12);
     place.centre = ((low + high) / 2).array().round(); // whole points: shared groups land on the same grid
     place.half = (high - low) / 2;
 }

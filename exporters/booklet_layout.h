@@ -52,7 +52,8 @@ inline constexpr int front_pages = 4;     //!< cover, how to read, parts, joint
 
 BookletLayout booklet_layout(const Replay& replay, const AssemblyPlan& plan, const BookletOptions& options);
 
-//! \brief Decide which steps need a magnified detail, and place it in the corner farthest from the element.
+//! \brief Decide which steps need a magnified detail, and place it in the corner where it hides
+//! least of the model.
 //! \details Wanted when less than 60 mm2 of the element can be seen or it is seen narrower than 6 mm, and in the first
 //! steps, where the joint is new to the reader.
 void place_insets(const Replay& replay, const AssemblyPlan& plan, std::vector<StepPlace>& places);

@@ -196,9 +196,10 @@ void draw_last_page(PdfCanvas& canvas, const BookletSources& sources)
     if (hatch) {
         const std::vector<int> names =
             element_names(sources.plan, sources.replay.surface.n_faces(), static_cast<int>(sources.plan.steps.size()));
-        words += "The dark red element is the bulb hatch: to reach the bulb, unhook it, and afterwards hook it in again as "
-                 "step " +
-                 std::to_string(sources.plan.steps.size()) + " shows (its neighbours are";
+        words +=
+            "The dark red element is the bulb hatch: to reach the bulb, unhook it, and afterwards hook it in again as "
+            "step " +
+            std::to_string(sources.plan.steps.size()) + " shows (its neighbours are";
         for (std::size_t i = 0; i < last.joins.size(); ++i) {
             words += (i == 0                       ? " "
                       : i + 1 == last.joins.size() ? " and "

@@ -10,7 +10,8 @@ namespace rhombloom {
 
 namespace {
 
-constexpr int longest_run = 16; // steps that share their drawn groups
+constexpr int longest_run = 16;              // steps that share their drawn groups
+constexpr double small_for_a_number = 350.0; // square points
 
 //! Back to front: a group of elements that all steps of a run show, or a single element.
 struct Item
@@ -223,8 +224,9 @@ void StepDrawing::draw_names(const std::vector<Face>& others) const
 {
     for (const Join& join : step().joins) {
         const Face f(face[join.to]);
-        if (seen_part(scene, f, others) < 0.5) {
-            continue;
+        const bool small = polygon_area(outline_of(scene, f)) < small_for_a_number;
+        if ((small && place().inset) || seen_part(scene, f, others) < 0.5) {
+            continue; // the detail names it
         }
         const Vec2 at = place().centre + project(scene.camera, element_centre(*scene.surface, f));
         canvas.text(std::to_string(names[join.to]), at + Vec2(0, 2.8), {8, 0x000000, Align::Centre, 0xFFFFFF});
@@ -258,7 +260,11 @@ void StepDrawing::draw_picture() const
         draw_items();
         draw_joined_sides(canvas, scene, own, sides, others);
         const bool outward = step().kind == StepKind::Remove || step().kind == StepKind::Unhook;
-        draw_arrow(canvas, scene, own, sides, outward ? -1 : 1);
+        const Vec2 gap = Vec2::Constant(4);
+        draw_arrow(canvas, scene, own,
+                   {sides,
+                    outward ? -1 : 1,
+                    {place().box.min - place().centre + gap, place().box.max - place().centre - gap}});
     });
     draw_names(others);
 }

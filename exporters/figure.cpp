@@ -237,9 +237,25 @@ double seen_part(const Scene& scene, Face f, const std::vector<Face>& others)
     return static_cast<double>(seen) / (samples * samples);
 }
 
+namespace {
+
+//! An element bent so much that one half hides part of the other's: they reach beyond the outline of its corners.
+void draw_folded_halves(PdfCanvas& canvas, const Polygon& p, unsigned tint, const Line& line)
+{
+    const double one = wedge(p[1] - p[0], p[2] - p[0]);
+    const double other = wedge(p[2] - p[0], p[3] - p[0]);
+    if (one * other < 0) {
+        canvas.fill_and_outline({p[0], p[1], p[2]}, tint, line);
+        canvas.fill_and_outline({p[0], p[2], p[3]}, tint, line);
+    }
+}
+
+} // namespace
+
 void draw_element(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint)
 {
     const Polygon p = outline_of(scene, f);
+    draw_folded_halves(canvas, p, element_tint(scene, f, paint), edge_line(paint));
     canvas.fill_and_outline(p, element_tint(scene, f, paint), edge_line(paint));
     if (paint == Paint::Removed) {
         const Line cross_line{1.4, 0x000000, 0};
@@ -299,7 +315,23 @@ void draw_joined_sides(PdfCanvas& canvas, const Scene& scene, Face f, const std:
     }
 }
 
-void draw_arrow(PdfCanvas& canvas, const Scene& scene, Face f, const std::vector<int>& joined, int away)
+namespace {
+
+//! How far one can go from a point before leaving the room.
+double way_out(const Vec2& from, const Vec2& along, const Box& room)
+{
+    double way = 1e9;
+    for (const int axis : {0, 1}) {
+        if (along[axis] != 0) {
+            const double wall = along[axis] > 0 ? room.max[axis] : room.min[axis];
+            way = std::min(way, (wall - from[axis]) / along[axis]);
+        }
+    }
+    return std::max(0.0, way);
+}
+
+//! Where the element comes from, as a direction on the paper.
+Vec2 arrow_direction(const Scene& scene, Face f, const std::vector<int>& joined)
 {
     const Polygon p = outline_of(scene, f);
     Vec2 from = Vec2::Zero();
@@ -311,20 +343,30 @@ void draw_arrow(PdfCanvas& canvas, const Scene& scene, Face f, const std::vector
         const Vec3 normal = element_normal(*scene.surface, f);
         from = Vec2(normal.dot(scene.camera.view.right), -normal.dot(scene.camera.view.up)) + Vec2(0.25, -0.35);
     }
-    from.normalize();
+    return from.normalized();
+}
+
+} // namespace
+
+void draw_arrow(PdfCanvas& canvas, const Scene& scene, Face f, const Arrow& arrow)
+{
+    const Polygon p = outline_of(scene, f);
+    const Vec2 from = arrow_direction(scene, f, arrow.joined);
+    const double size = std::sqrt(polygon_area(p));
     double reach = 0; // how far the element itself extends that way
     for (const Vec2& corner : p) {
         reach = std::max(reach, (corner - middle(p)).dot(from));
     }
     const double length = std::clamp(0.8 * size, 14.0, 26.0);
     const Vec2 tip = middle(p) + from * (0.45 * reach);
-    const Vec2 tail = tip + from * (length + 0.3 * reach);
-    const Vec2 point = away > 0 ? tip : tail;
-    const Vec2 back = (away > 0 ? from : Vec2(-from)) * 6.5;
+    const Vec2 tail = tip + from * std::clamp(way_out(tip, from, arrow.room), 12.0, length + 0.3 * reach);
+    const bool inward = arrow.away > 0;
+    const Vec2 point = inward ? tip : tail;
+    const Vec2 back = (inward ? from : Vec2(-from)) * 6.5;
     const Vec2 across(-back.y() * 0.55, back.x() * 0.55);
     const Polygon head = {point, point + back + across, point + back - across};
     const Vec2 shaft_end = point + 0.8 * back;
-    const Vec2 shaft_start = away > 0 ? tail : tip;
+    const Vec2 shaft_start = inward ? tail : tip;
     canvas.stroke({shaft_start, shaft_end}, {5, 0xFFFFFF, 0});
     canvas.fill_and_outline(head, 0xFFFFFF, {3, 0xFFFFFF, 0});
     canvas.stroke({shaft_start, shaft_end}, {2.2, 0x000000, 0});

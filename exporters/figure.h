@@ -86,8 +86,14 @@ double polygon_area(const Polygon& polygon);
 void draw_joined_sides(PdfCanvas& canvas, const Scene& scene, Face f, const std::vector<int>& sides,
                        const std::vector<Face>& built);
 
+struct Arrow
+{
+    std::vector<int> joined;                             //!< sides
+    int away = 1;                                        //!< +1: the element goes in; -1: it comes out
+    Box room{Vec2::Constant(-1e6), Vec2::Constant(1e6)}; //!< about the figure's centre, where the arrow has to stay
+};
+
 //! \brief An arrow that shows where the element comes from: across its free sides, else from outside.
-//! \param away +1: the element goes in; -1: it comes out
-void draw_arrow(PdfCanvas& canvas, const Scene& scene, Face f, const std::vector<int>& joined, int away);
+void draw_arrow(PdfCanvas& canvas, const Scene& scene, Face f, const Arrow& arrow);
 
 } // namespace rhombloom
