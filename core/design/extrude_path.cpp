@@ -7,6 +7,7 @@
 #include "core/design/overlap.h"
 #include "core/design/pose.h"
 #include "core/model/validity.h"
+#include "core/text.h"
 
 namespace rhombloom {
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double follows = 0.8660254037844386; // cosine of 30 degrees
 constexpr int max_periods = 200;
+constexpr double longest_drag = 2e6;           // mm; design files allow a kilometre each way
 constexpr int trial_iterations = 1000;         // a candidate that needs more is passed over
 constexpr int most_trials = 3;                 // candidates that are embedded until one is at least usable;
 constexpr std::size_t embedded_elements = 500; // more of them, for a good one, as long as they have no more elements
@@ -184,7 +186,11 @@ Expected<Extrusion> extrude(const Surface& target, const Element& element, const
         return refuse("the apex is vertex " + std::to_string(request.apex.idx()) + ", but the surface has " +
                       std::to_string(target.n_vertices()) + " vertices");
     }
-    if (!(request.drag.norm() > 1e-3 * element.la)) {
+    if (!request.drag.allFinite() || request.drag.norm() > longest_drag) {
+        return refuse("the drag is not a length: expected three finite numbers, together at most " +
+                      to_text(longest_drag) + " mm");
+    }
+    if (request.drag.norm() <= 1e-3 * element.la) {
         return refuse("the drag is shorter than a thousandth of an element: say how far and where to extrude");
     }
     const Vec3 start = target.point(request.apex);
