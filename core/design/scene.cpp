@@ -1,6 +1,7 @@
 #include "core/design/scene.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/design/edit.h"
 #include "core/design/extrude.h"
@@ -194,6 +195,22 @@ Expected<std::vector<Face>> find_elements(const ScenePart& on, const std::vector
     return with_images(on.surface, element, symmetry, elements);
 }
 
+//! An equilibrium that was changed here and there keeps its creases and its symmetry; one that does not come to rest
+//! like that is repaired.
+EmbedReport embed_edited(Surface& surface, const Surface& before, const std::vector<int>& number,
+                         const Context& context)
+{
+    const Surface start = surface;
+    EmbedOptions edited = context.embedding;
+    edited.start = Start::Edited;
+    const EmbedReport report = embed_in_place(surface, before, number, context.element(), edited);
+    if (report.converged) {
+        return report;
+    }
+    surface = start;
+    return embed_in_place(surface, before, number, context.element(), context.embedding);
+}
+
 Expected<void> run(const Open& open, const Context& context)
 {
     auto on = part(context.scene, open.on);
@@ -208,8 +225,8 @@ Expected<void> run(const Open& open, const Context& context)
     if (!opened) {
         return tl::make_unexpected(opened.error());
     }
-    (*on)->embedding =
-        embed_in_place(opened->surface, (*on)->surface, opened->number, context.element(), context.embedding);
+    const Surface before = std::move((*on)->surface);
+    (*on)->embedding = embed_edited(opened->surface, before, opened->number, context);
     (*on)->surface = std::move(opened->surface);
     return {};
 }
@@ -228,7 +245,10 @@ Expected<void> run(const Flip& flip, const Context& context)
     if (!flipped) {
         return tl::make_unexpected(flipped.error());
     }
-    (*on)->embedding = embed_in_place(*flipped, context.element(), context.embedding);
+    std::vector<int> same(flipped->n_vertices());
+    std::iota(same.begin(), same.end(), 0);
+    const Surface before = std::move((*on)->surface);
+    (*on)->embedding = embed_edited(*flipped, before, same, context);
     (*on)->surface = std::move(*flipped);
     return {};
 }
