@@ -1,7 +1,6 @@
 #include "core/design/scene.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "core/design/edit.h"
 #include "core/design/extrude.h"
@@ -195,9 +194,9 @@ Expected<std::vector<Face>> find_elements(const ScenePart& on, const std::vector
     return with_images(on.surface, element, symmetry, elements);
 }
 
-//! An equilibrium that was changed here and there keeps its creases and its symmetry; one that does not come to rest
-//! like that is repaired.
-EmbedReport embed_edited(Surface& surface, const Surface& before, const std::vector<int>& number,
+//! Without a few elements an equilibrium keeps its creases and its symmetry: only when it does not come to rest like
+//! that, it is repaired. (A flipped element may leave a dimple that has to be popped out.)
+EmbedReport embed_opened(Surface& surface, const Surface& before, const std::vector<int>& number,
                          const Context& context)
 {
     const Surface start = surface;
@@ -226,7 +225,7 @@ Expected<void> run(const Open& open, const Context& context)
         return tl::make_unexpected(opened.error());
     }
     const Surface before = std::move((*on)->surface);
-    (*on)->embedding = embed_edited(opened->surface, before, opened->number, context);
+    (*on)->embedding = embed_opened(opened->surface, before, opened->number, context);
     (*on)->surface = std::move(opened->surface);
     return {};
 }
@@ -245,10 +244,7 @@ Expected<void> run(const Flip& flip, const Context& context)
     if (!flipped) {
         return tl::make_unexpected(flipped.error());
     }
-    std::vector<int> same(flipped->n_vertices());
-    std::iota(same.begin(), same.end(), 0);
-    const Surface before = std::move((*on)->surface);
-    (*on)->embedding = embed_edited(*flipped, before, same, context);
+    (*on)->embedding = embed_in_place(*flipped, context.element(), context.embedding);
     (*on)->surface = std::move(*flipped);
     return {};
 }
