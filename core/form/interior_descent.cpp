@@ -20,6 +20,7 @@ constexpr double largest_imbalance = 100; // of a hinge's slack times force agai
 constexpr double smallest_step = 1e-3;    // share of the direction; below, the iteration is stuck
 constexpr double first_floor = 1e-4;
 constexpr double largest_floor = 0.5;
+constexpr int patience = 3; // steps with a floor: so far from the minimum the forces run ahead of the shape
 
 // The share of the direction that keeps every value positive.
 double share_to_zero(const ArrayXd& values, const ArrayXd& steps)
@@ -201,14 +202,19 @@ MinimiseResult interior_descent(const EmbeddingTerms& terms, NewtonSystem& syste
     Iterate now = iterate;
     ConcaveHinges hinges(terms, now.x);
     double floor = 0;
+    int supported = 0;
     while (!should_stop(now, options, result) && result.iterations < max_iterations) {
         if (!interior_step(terms, system, hinges, now, floor)) {
             break;
         }
+        supported += floor > 0;
         ++result.iterations;
         const bool arrived = now.gradient_norm() <= options.tolerance;
         if (now.energy < iterate.energy || (arrived && now.energy < iterate.energy * (1 + 1e-12))) {
             iterate = now;
+        }
+        if (supported > patience && !arrived) {
+            break;
         }
     }
     if (result.reason == StopReason::Converged && iterate.gradient_norm() > options.tolerance) {

@@ -1,8 +1,8 @@
-// bench_embedding [--fast] [--csv FILE] [CASE ...]: the embedding's solver against general ones on the same energy, in
-// one run, on one thread. Prints processor time (medians of the repeats) until the energy is within 1e-6 of the best
-// that anybody found and until no gradient component exceeds 1e-8, and how the ratios compare with what must hold.
-// CASE: a name, or a kind like plain- (embedding_cases.h); --fast: without Ceres and projected Newton; --csv: append
-// the times to FILE, for embedding_plot.py.
+// bench_embedding [--alone | --fast] [--csv FILE] [CASE ...]: the embedding's solver against general ones on the same
+// energy, in one run, on one thread. Prints processor time (medians of the repeats) until the energy is within 1e-6 of
+// the best that anybody found and until no gradient component exceeds 1e-8, and how the ratios compare with what must
+// hold. CASE: a name, or a kind like plain- (embedding_cases.h); --alone: no rivals; --fast: without Ceres and
+// projected Newton; --csv: append the times to FILE, for embedding_plot.py.
 
 #include <omp.h>
 
@@ -24,6 +24,7 @@ constexpr double long_run = 5; // seconds; a solver that takes longer runs once
 
 struct Settings
 {
+    bool alone = false;
     bool fast = false;
     std::string csv;
     std::vector<std::string> wanted;
@@ -52,10 +53,11 @@ double first_time(const Trace& trace, const std::function<bool(const Sample&)>& 
 std::vector<Solver> solvers(const Case& test, const Settings& settings)
 {
     std::vector<Solver> out = {ours()};
-    if (test.rivals) {
-        out.push_back(liblbfgs());
+    if (settings.alone || !test.rivals) {
+        return out;
     }
-    if (test.rivals && !settings.fast) {
+    out.push_back(liblbfgs());
+    if (!settings.fast) {
         out.insert(out.end(), {projected_newton(), ceres_levenberg_marquardt(), ceres_dogleg()});
     }
     return out;
@@ -167,6 +169,8 @@ Settings settings_from(int argc, char** argv)
         const std::string word = argv[k];
         if (word == "--fast") {
             settings.fast = true;
+        } else if (word == "--alone") {
+            settings.alone = true;
         } else if (word == "--csv" && k + 1 < argc) {
             settings.csv = argv[++k];
         } else {
