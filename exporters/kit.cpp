@@ -153,7 +153,7 @@ Expected<Kit> make_kit(const Design& design, const Replay& replay, const Piece& 
     if (auto ok = add_parts(kit, design, replay, plan, piece, options); !ok) {
         return tl::make_unexpected(ok.error());
     }
-    const Summary summary{design.title, piece, build, kit.cut, kit.scorecard, kit.warnings, options};
+    const Summary summary{design.title, piece, build, kit.cut, kit.scorecard, kit.warnings, options, design};
     kit.files["README.txt"] = readme_text(summary, kit.files);
     kit.files["kit.json"] = manifest_json(summary, kit.files);
     return kit;

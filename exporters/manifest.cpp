@@ -122,6 +122,35 @@ std::string first_steps(const Summary& s)
 
 } // namespace
 
+namespace {
+
+//! How far the imported networks were from their targets, as they were made.
+ordered_json imports(const Summary& s)
+{
+    auto list = ordered_json::array();
+    const double la = s.piece.element.la;
+    for (const Operation& operation : s.design.operations) {
+        const auto* import = std::get_if<Import>(&operation);
+        if (import == nullptr || !import->distance) {
+            continue;
+        }
+        const auto both = [la](double rms, double max) -> ordered_json {
+            return {{"rms_mm", rms},
+                    {"max_mm", max},
+                    {"rms_la", rounded(rms / la, 1e-6)},
+                    {"max_la", rounded(max / la, 1e-6)}};
+        };
+        const ImportDistance& d = *import->distance;
+        list.push_back({{"id", import->id},
+                        {"target_sha256", import->target_sha256},
+                        {"elements_to_target", both(d.to_target_rms, d.to_target_max)},
+                        {"target_to_elements", both(d.from_target_rms, d.from_target_max)}});
+    }
+    return list;
+}
+
+} // namespace
+
 std::string manifest_json(const Summary& s, const FileSet& files)
 {
     ordered_json root = {{"format", "rhombloom-kit"}, {"version", 1}, {"program", s.options.program_version}};
@@ -158,6 +187,9 @@ std::string manifest_json(const Summary& s, const FileSet& files)
         if (s.cut.cost) {
             root["cost"] = rounded(*s.cut.cost, 1e-2);
         }
+    }
+    if (auto list = imports(s); !list.empty()) {
+        root["imports"] = std::move(list);
     }
     root["warnings"] = s.warnings;
     for (const auto& [name, bytes] : files) {

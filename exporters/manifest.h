@@ -14,6 +14,7 @@ struct Summary
     const Scorecard& scorecard;
     const std::vector<std::string>& warnings;
     const KitOptions& options;
+    const Design& design;
 };
 
 //! \brief kit.json (DESIGN.md section 7) for these files.

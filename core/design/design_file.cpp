@@ -1,5 +1,6 @@
 #include "core/design/design_file.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/design/json_reader.h"
@@ -78,6 +79,58 @@ Expected<Design> parse_design(std::string_view text)
     return design;
 }
 
+namespace {
+
+bool is_plain(const nlohmann::ordered_json& value)
+{
+    return !value.is_structured() || value.empty();
+}
+
+//! Lists of lists of numbers fill lines; the rest is written as dump(2) does.
+bool fills_lines(const nlohmann::ordered_json& value)
+{
+    const auto is_row = [](const auto& row) {
+        return row.is_number() || (row.is_array() && std::all_of(row.begin(), row.end(), is_plain));
+    };
+    constexpr std::size_t many = 8;
+    return value.is_array() && value.size() > many && std::all_of(value.begin(), value.end(), is_row);
+}
+
+std::string filled(const nlohmann::ordered_json& list, const std::string& indent)
+{
+    constexpr std::size_t width = 120;
+    std::string text = "[";
+    std::string line;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::string item = list[i].dump() + (i + 1 < list.size() ? "," : "");
+        if (!line.empty() && indent.size() + 3 + line.size() + item.size() > width) {
+            text += "\n" + indent + "  " + line;
+            line.clear();
+        }
+        line += (line.empty() ? "" : " ") + item;
+    }
+    return text + "\n" + indent + "  " + line + "\n" + indent + "]";
+}
+
+std::string tidy(const nlohmann::ordered_json& value, const std::string& indent)
+{
+    if (is_plain(value)) {
+        return value.dump();
+    }
+    if (fills_lines(value)) {
+        return filled(value, indent);
+    }
+    const bool is_list = value.is_array();
+    std::string text;
+    for (const auto& [key, item] : value.items()) {
+        text += text.empty() ? "" : ",";
+        text += "\n" + indent + "  " + (is_list ? "" : nlohmann::json(key).dump() + ": ") + tidy(item, indent + "  ");
+    }
+    return (is_list ? "[" : "{") + text + "\n" + indent + (is_list ? "]" : "}");
+}
+
+} // namespace
+
 std::string write_design(const Design& design)
 {
     nlohmann::ordered_json root;
@@ -94,7 +147,7 @@ std::string write_design(const Design& design)
     for (const Operation& operation : design.operations) {
         root["operations"].push_back(write_operation(operation));
     }
-    return root.dump(2) + "\n";
+    return tidy(root, "") + "\n";
 }
 
 } // namespace rhombloom

@@ -236,6 +236,29 @@ Expected<Quad> read_quad(const json& value, std::size_t points, const std::strin
     return quad;
 }
 
+std::optional<ImportDistance> take_distance(ObjectReader& reader)
+{
+    constexpr double farthest = 1e9;
+    const json* value = reader.take("distance_mm");
+    if (value == nullptr) {
+        return std::nullopt;
+    }
+    if (!value->is_object()) {
+        reader.fail("distance_mm", "is " + describe(*value) + ": expected an object");
+        return std::nullopt;
+    }
+    ObjectReader inner(*value, reader.path("distance_mm"));
+    ImportDistance distance;
+    distance.to_target_rms = inner.number("to_target_rms", 0, 0, farthest);
+    distance.to_target_max = inner.number("to_target_max", 0, 0, farthest);
+    distance.from_target_rms = inner.number("from_target_rms", 0, 0, farthest);
+    distance.from_target_max = inner.number("from_target_max", 0, 0, farthest);
+    if (auto ok = inner.finish(); !ok) {
+        reader.fail(ok.error());
+    }
+    return distance;
+}
+
 Expected<Operation> read_import(ObjectReader& reader)
 {
     Import import;
@@ -244,6 +267,7 @@ Expected<Operation> read_import(ObjectReader& reader)
     import.id = reader.text("id", "body");
     import.target = reader.text("target", "");
     import.target_sha256 = reader.text("target_sha256", "");
+    import.distance = take_distance(reader);
     import.positions = take_list<Vec3>(reader, "points_mm", read_import_point, most_points);
     const std::size_t points = import.positions.size();
     const auto quad = [points](const json& value, const std::string& path) { return read_quad(value, points, path); };

@@ -112,6 +112,12 @@ ordered_json write(const Import& import)
         out["target"] = import.target;
         out["target_sha256"] = import.target_sha256;
     }
+    if (const auto& d = import.distance) {
+        out["distance_mm"] = {{"to_target_rms", d->to_target_rms},
+                              {"to_target_max", d->to_target_max},
+                              {"from_target_rms", d->from_target_rms},
+                              {"from_target_max", d->from_target_max}};
+    }
     out["points_mm"] = ordered_json::array();
     for (const Vec3& p : import.positions) {
         out["points_mm"].push_back(write_point(p));

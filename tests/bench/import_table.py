@@ -87,7 +87,7 @@ def row(name, mesh, elements, folder):
                              "--json"], capture_output=True)
     seconds = time.monotonic() - begin
     if not result.stdout:
-        return {"good": False, "line": result.stderr.decode().strip(), "rms": None}
+        return {"good": False, "line": result.stderr.decode().strip(), "rms": None}  # refused, with the reason
     report = json.loads(result.stdout)
     check = verdict(design)
     problems = check["problems"] + ([report["problem"]] if report["problem"] else [])
@@ -98,7 +98,7 @@ def row(name, mesh, elements, folder):
             f"{report['from_target']['max_la']:.2f}  stretch {100 * report['max_stretch']:.2f} %  defects "
             f"{report['min_defect_deg']:.0f} .. {report['max_defect_deg']:.0f}  {seconds:.1f} s")
     return {"good": not problems and check["buildable"], "line": line + "".join("  ! " + p[:160] for p in problems),
-            "rms": float(np.hypot(*both) / np.sqrt(2))}
+            "rms": float(np.hypot(*both) / np.sqrt(2 * report["elements"]))}
 
 
 def targets(folder):
@@ -126,7 +126,7 @@ def main():
                 better += told["rms"] < before
             before = told["rms"] if told["rms"] is not None else before
             print(f"{name:13s} {elements:5d} {'good' if told['good'] else 'FAIL'} {told['line']}", flush=True)
-    print(f"{good} of {total} good ({100 * good / max(total, 1):.0f} %); more elements came nearer in la in {better} of "
+    print(f"{good} of {total} good ({100 * good / max(total, 1):.0f} %); more elements came nearer, as a share of the size, in {better} of "
           f"{pairs} steps")
 
 

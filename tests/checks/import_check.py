@@ -1,14 +1,20 @@
 """Meshes from anywhere: sound ones become designs that can be built, broken ones are repaired or refused in one sentence
-with exit code 1 and no file left behind; nothing crashes."""
+with exit code 1 and no file left behind; nothing crashes.
+
+    import_check.py PROGRAM SOURCE_DIR [broken]
+
+With `broken`: only what a sanitized program gets through in seconds, the broken meshes and one small design."""
 import json
 import math
 import pathlib
+import random
 import struct
 import subprocess
 import sys
 import tempfile
 
 program, source = sys.argv[1], pathlib.Path(sys.argv[2])
+broken_only = sys.argv[3:] == ["broken"]
 work = pathlib.Path(tempfile.mkdtemp(prefix="rhombloom-import-"))
 problems = []
 checked = 0
@@ -186,17 +192,46 @@ text = json.dumps(deep).encode()
 text += b" " * (-len(text) % 4)
 expect_refusal("loop.glb", struct.pack("<4sIIII", b"glTF", 2, 20 + len(text), len(text), 0x4E4F534A) + text, "")
 
-for name, data in {"ball.obj": obj(good), "ball.off": off(good), "ball.stl": stl(good), "text.stl": stl_text(good),
-                   "little.ply": ply(good), "big.ply": ply(good, ">"), "ball.glb": glb(good)}.items():
-    expect_design(name, data, 150)
-expect_design("tiny.off", off(([tuple(1e-9 * x for x in p) for p in points], triangles)), 150)
-expect_design("inside_out.off", off((points, [t[::-1] for t in triangles])), 150)
-expect_design("mixed.off", off((points, [t[::-1] if k % 3 == 0 else t for k, t in enumerate(triangles)])), 150)
-expect_design("twice.off", off((points, triangles + triangles[:40])), 150, "duplicate")
-expect_design("holes.off", off((points, [t for k, t in enumerate(triangles) if k % 61])), 150, "closed")
-expect_design("some_nan.off", off(([(math.nan, 0, 0)] + points[1:], triangles)), 150, "not finite")
-expect_design("overlap.off", off(together(good, ball(12, 24, 40, (45, 0, 20)))), 240, "shells")
-expect_design("crowded.off", off((points + [(0, 0, 90)], triangles + [(1, 2, len(points))])), 150, "more than two")
+expect_refusal("area.off", off(([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)] * 50)), "area")
+expect_refusal("one.stl", stl(([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])), "")
+expect_refusal("count.stl", stl(good)[:80] + struct.pack("<I", 4000000000) + stl(good)[84:], "cut short")
+expect_refusal("chunk.glb", glb(good)[:12] + struct.pack("<I", 4000000000) + glb(good)[16:], "")
+expect_refusal("view.glb", glb(good).replace(b'"byteOffset": 0', b'"byteOffset": 9'), "")
+expect_refusal("type.ply", ply(good).replace(b"property uchar red", b"property quark red"), "line 8")
+expect_refusal("shy.ply", ply(good).replace(b"property float z", b"property float q"), "z")
+
+# Anything may be wrong with a file: three elements are refused, but only after it was read and repaired.
+chance = random.Random(1)
+little = ball(5, 7)
+sound = {"obj": obj(little), "off": off(little), "stl": stl(little), "ply": ply(little), "glb": glb(little)}
+for number in range(40):
+    ending, data = list(sound.items())[number % len(sound)]
+    data = bytearray(data)
+    for _ in range(1 + number // 10):
+        at = chance.randrange(len(data) if number % 2 else min(len(data), 700))
+        data[at:at + chance.choice([0, 1, 1, 1, 4])] = bytes([chance.randrange(256)])
+    expect_refusal(f"spoilt-{number}.{ending}", bytes(data), "", "--elements", "3")
+
+groups = b"".join(b"g %s\no %s\ns %d\nusemtl m%d\n" % (b"a/" * 200, b"b" * 3000, k, k) for k in range(200))
+expect_design("groups.obj", groups + obj(little) + groups, 24)
+if not broken_only:
+    expect_design("length.glb", glb(good)[:8] + struct.pack("<I", 4000000000) + glb(good)[12:], 150)
+    for name, data in {"ball.obj": obj(good), "ball.off": off(good), "ball.stl": stl(good), "text.stl": stl_text(good),
+                       "little.ply": ply(good), "big.ply": ply(good, ">"), "ball.glb": glb(good)}.items():
+        expect_design(name, data, 150)
+    expect_design("tiny.off", off(([tuple(1e-9 * x for x in p) for p in points], triangles)), 150)
+    expect_design("inside_out.off", off((points, [t[::-1] for t in triangles])), 150)
+    expect_design("mixed.off", off((points, [t[::-1] if k % 3 == 0 else t for k, t in enumerate(triangles)])), 150)
+    expect_design("twice.off", off((points, triangles + triangles[:40])), 150, "duplicate")
+    expect_design("holes.off", off((points, [t for k, t in enumerate(triangles) if k % 61])), 150, "closed")
+    expect_design("some_nan.off", off(([(math.nan, 0, 0)] + points[1:], triangles)), 150, "not finite")
+    expect_design("overlap.off", off(together(good, ball(12, 24, 40, (45, 0, 20)))), 240, "shells")
+    expect_design("crowded.off", off((points + [(0, 0, 90)], triangles + [(1, 2, len(points))])), 150, "more than two")
+    colours = ply(good).replace(b"property uchar red\n", b"property uchar red\nproperty list uchar float weights\n")
+    split = colours.index(b"end_header\n") + len(b"end_header\n")
+    points_end = split + 13 * len(points)
+    odd = b"".join(colours[k:k + 13] + b"\x02" + b"\0" * 8 for k in range(split, points_end, 13))
+    expect_design("odd.ply", colours[:split] + odd + colours[points_end:], 150)
 
 print(f"{checked} meshes, {len(problems)} problems")
 print("\n".join(problems))

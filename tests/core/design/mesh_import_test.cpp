@@ -4,9 +4,11 @@
 #include "core/design/history.h"
 #include "core/design/mesh_import/curvature_match.h"
 #include "core/design/mesh_import/join_network.h"
+#include "core/design/mesh_import/mesh_decimate.h"
 #include "core/design/mesh_import/mesh_import.h"
 #include "core/design/mesh_import/mesh_repair.h"
 #include "core/design/mesh_import/mesh_wrap.h"
+#include "core/design/mesh_import/network_moves.h"
 #include "core/design/mesh_import/remesh.h"
 #include "core/model/triangulation.h"
 #include "core/model/validity.h"
@@ -178,6 +180,71 @@ TEST(ImportMesh, IsTheSameEveryTime)
 {
     EXPECT_EQ(write_design({"", {}, {}, {imported_ball().operation}}),
               write_design({"", {}, {}, {same_ball().operation}}));
+}
+
+TEST(ImportMesh, OpenFlipMergeAndExtrudeFollow)
+{
+    const ImportedMesh& made = same_ball();
+    const double top = bounds(made.target).max().z();
+    const auto toward = [](double x, double y, double z) { return Reference{Reference::Kind::Toward, 0, {x, y, z}}; };
+    Design design;
+    design.element = made.element;
+    design.operations = {made.operation,
+                         Place{"head", "ball-30", {0, 0, top + 60}},
+                         Merge{"body", "head"},
+                         Extrude{"", "body", toward(1, 0, 0), "ball-30", {250, 0, 0}},
+                         Open{"body", {toward(-1, 0, -1)}, "lamp holder"},
+                         Flip{"body", toward(-1, 0, 1)}};
+    const auto replayed = replay(design);
+    ASSERT_TRUE(replayed) << replayed.error().message;
+    EXPECT_GT(replayed->surface.n_faces(), made.operation.quads.size() + 20);
+    EXPECT_TRUE(validate(replayed->surface, made.element).ok());
+    EXPECT_TRUE(replayed->embedding.converged);
+}
+
+TEST(ImportMesh, KeepsTheDistanceInTheDesignFile)
+{
+    const ImportedMesh& made = same_ball();
+    const auto read = parse_design(write_design({"", made.element, {}, {made.operation}}));
+    ASSERT_TRUE(read) << read.error().message;
+    const auto& distance = std::get<Import>(read->operations.front()).distance;
+    ASSERT_TRUE(distance);
+    EXPECT_NEAR(distance->to_target_rms, made.report.distance.to_target.rms, 1e-3);
+    EXPECT_NEAR(distance->from_target_max, made.report.distance.from_target.max, 1e-3);
+}
+
+TEST(NetworkMoves, AFlipReplacesAnElementASplitAddsThreeATurnIsUndoneByATurn)
+{
+    const TriangleMesh mesh = sphere(100);
+    const MeshTree tree(mesh);
+    const Plan plan{mesh, triangle_middles(mesh, tree), {}};
+    const Corners place = std::minmax(mesh.triangles[7][0], mesh.triangles[7][1]);
+    const auto edges = [](const Plan& p) {
+        std::set<Corners> result;
+        for (const Quad& q : join_network(p.triangles, p.middles).quads) {
+            result.insert(std::minmax(q[0], q[2]));
+        }
+        return result;
+    };
+    const Plan flipped = carry_out({{Move::Kind::Flip, place}}, plan);
+    EXPECT_EQ(edges(flipped).count(place), 0U);
+    EXPECT_EQ(edges(flipped).size(), edges(plan).size());
+    EXPECT_EQ(edges(carry_out({{Move::Kind::Split, place}}, plan)).size(), edges(plan).size() + 3);
+    const Plan turned = carry_out({{Move::Kind::Turn, place}}, plan);
+    EXPECT_EQ(turned.flipped.count(place), 1U);
+    EXPECT_TRUE(carry_out({{Move::Kind::Turn, place}}, turned).flipped.empty());
+}
+
+TEST(Decimate, KeepsTheTopologyAndPointsOfTheMesh)
+{
+    const TriangleMesh mesh = sphere(100);
+    const TriangleMesh fewer = decimate(mesh, 60);
+    EXPECT_LT(fewer.triangles.size(), mesh.triangles.size() / 2);
+    EXPECT_EQ(2 * fewer.points.size(), fewer.triangles.size() + 4);
+    const MeshTree tree(mesh);
+    for (const Vec3& p : fewer.points) {
+        EXPECT_LT(tree.nearest(p).distance, 1e-9);
+    }
 }
 
 } // namespace rhombloom
