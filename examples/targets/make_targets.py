@@ -2,7 +2,8 @@
 
     /usr/bin/python3 make_targets.py [FOLDER] [NAME ...]
 
-Without names: bust, mug and hand, the targets that examples/ imports. The other shapes serve as tests. Lengths are millimetres, z is up. Needs numpy.
+Without names: bust, mug and hand; bust and hand are imported in examples/imports. The other shapes serve as tests.
+Lengths are millimetres, z is up. Needs numpy.
 """
 import pathlib
 import sys
