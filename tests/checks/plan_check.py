@@ -1,5 +1,6 @@
 """Replays plan.json on surface.json alone and holds it to the hard rules; then spoils it in every way that matters and
-expects to be told. Run as: plan_check.py PROGRAM SOURCE_DIR, or plan_check.py --kit FOLDER for a finished kit.
+expects to be told. Run as: plan_check.py PROGRAM SOURCE_DIR [--all], or plan_check.py --kit FOLDER for a finished kit;
+--all: 60 designs made by chance instead of four.
 
 H1 every element but the first joins something        H2 one piece after every step
 H3 the end is the surface                             H4 only what is there is removed, and never an articulation
@@ -15,6 +16,8 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+import random_designs
 
 DESIGNS = {
     "ball-30": 1, "rhombic-6": 1, "polar-3x3": 1, "ball-90": 1, "tube-6x6": 1, "torus-12x6": 1, "dome-5x3": 1,
@@ -293,6 +296,9 @@ def main():
     for name, design in designs.items():
         with tempfile.TemporaryDirectory() as folder:
             ok &= check_kit(fabricate(program, design, Path(folder)), name)
+    with tempfile.TemporaryDirectory() as folder:
+        for name, kit, _ in random_designs.planned(program, folder, 60 if "--all" in sys.argv else 4):
+            ok &= check_kit(kit, name)
     return 0 if ok else 1
 
 
