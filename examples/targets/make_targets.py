@@ -2,7 +2,7 @@
 
     /usr/bin/python3 make_targets.py [FOLDER] [NAME ...]
 
-Without names: bust, mug and hand; bust and hand are imported in examples/imports. The other shapes serve as tests.
+Without names: bust, solid_mug and hand, which examples/imports are made from. The other shapes serve as tests.
 Lengths are millimetres, z is up. Needs numpy.
 """
 import pathlib
@@ -219,7 +219,7 @@ def write_off(path, points, triangles):
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     folder.mkdir(parents=True, exist_ok=True)
-    for name in sys.argv[2:] or ["bust", "mug", "hand"]:
+    for name in sys.argv[2:] or ["bust", "solid_mug", "hand"]:
         solid, half, middle = SHAPES[name]
         points, triangles = polygonise(solid, half, middle)
         write_off(folder / f"{name}.off", points, triangles)
