@@ -20,6 +20,9 @@ struct BendingModes
     Eigen::VectorXd mean;        //!< 3 numbers per point of the flat sheet, mm
     Eigen::MatrixXd modes;       //!< one column per mode, of length 1, most important first
     std::vector<BentPose> poses; //!< by face number
+    //! Mode k moves every point of a sheet's two faces by a multiple of entry k, mm, at most 127 times; empty: by
+    //! anything.
+    Eigen::VectorXd grain;
 };
 
 //! \brief Poses of all elements on their common mean, which is centred on the origin; no modes yet.

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "core/form/parallel.h"
-#include "exporters/bent_element_hooks.h"
+#include "exporters/bent_element_relax.h"
 
 namespace rhombloom {
 
@@ -193,9 +193,9 @@ Vector places_of(const Model& model, const BentElement& e, const BentPose& pose,
     return local_points(e, pose, flat);
 }
 
-void settle_element(const Model& model, const BentElement& e, const std::array<Vec2, 4>& flat, BentPose& pose)
+void settle_element(const Model& model, const BentElement& e, const std::array<Vec2, 4>& flat, int iterations,
+                    BentPose& pose)
 {
-    constexpr int iterations = 8;
     const int count = static_cast<int>(model.modes.cols());
     for (int iteration = 0; iteration < iterations; ++iteration) {
         const Vector shape = model.mean + model.modes * pose.weights;
@@ -228,10 +228,37 @@ Matrix normal_model(const BentSurface& bent, const std::vector<BentPose>& poses)
     return square.ldlt().solve(weights * normals.transpose()).transpose();
 }
 
-//! Replace points and normals of every element by what the modes say.
-void adopt(BentSurface& bent, const Model& model, const BendingModes& modes, SettleReport& report)
+//! \brief Round modes and the normals' modes so that what they do to a sheet's two faces is in whole numbers of 8 bits.
+//! \details Elements settle in the rounded modes: files can hold them exactly. Modes that move points far stay as they
+//! are, for rounding would shake the short segments of the hooks.
+Vector put_on_grain(Model& model, Matrix& normals, const std::vector<BentPose>& poses, double thickness)
 {
-    const Matrix normals = normal_model(bent, modes.poses);
+    constexpr double coarsest = 0.02; // mm, at the largest weight
+    constexpr int most = 126;         // one less than 8 bits hold: two roundings may add up
+    const double half = 0.5 * thickness;
+    Vector grain(model.modes.cols());
+    for (int k = 0; k < grain.size(); ++k) {
+        auto mode = model.modes.col(k).head(normals.rows());
+        auto turn = normals.col(k + 1);
+        grain(k) = std::max((mode.cwiseAbs() + half * turn.cwiseAbs()).maxCoeff() / most, 1e-12);
+        double largest = 0;
+        for (const BentPose& pose : poses) {
+            largest = std::max(largest, std::abs(pose.weights(k)));
+        }
+        if (grain(k) * largest > coarsest) {
+            grain(k) = 0;
+            continue;
+        }
+        mode = (mode / grain(k)).array().round() * grain(k);
+        turn = (half * turn / grain(k)).array().round() * (grain(k) / half);
+    }
+    return grain;
+}
+
+//! Replace points and normals of every element by what the modes say.
+void adopt(BentSurface& bent, const Model& model, const Matrix& normals, const BendingModes& modes,
+           SettleReport& report)
+{
     const std::array<Vec2, 4> flat = {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
     for (std::size_t f = 0; f < bent.elements.size(); ++f) {
         BentElement& e = bent.elements[f];
@@ -241,7 +268,6 @@ void adopt(BentSurface& bent, const Model& model, const BendingModes& modes, Set
         const auto at = [&](int i) -> Vec3 { return pose.origin + pose.axes * shape.segment<3>(3 * i); };
         const int count = static_cast<int>(e.points.size());
         for (int i = 0; i < count; ++i) {
-            report.max_shift_mm = std::max(report.max_shift_mm, (at(i) - e.points[i]).norm());
             e.points[i] = at(i);
             e.normals[i] = pose.axes * turned.segment<3>(3 * i);
         }
@@ -257,12 +283,94 @@ void adopt(BentSurface& bent, const Model& model, const BendingModes& modes, Set
     }
 }
 
+enum class Round
+{
+    Rough, //!< the shapes will be relaxed again
+    Last   //!< modes in whole numbers, weights to the end
+};
+
+//! Modes of the elements as they are, and every element settled in them.
+BendingModes settle_once(BentSurface& bent, const Element& element, const HookParameters& hooks, int count, Round round,
+                         SettleReport& report)
+{
+    BendingModes modes = aligned_elements(bent);
+    const std::array<Vec2, 4> flat = flat_corners(element);
+    const int elements = static_cast<int>(bent.elements.size());
+    Matrix data(3 * (bent.sheet.points.size() + 4), elements);
+    for (int f = 0; f < elements; ++f) {
+        data.col(f) = local_points(bent.elements[f], modes.poses[f], flat);
+    }
+    Model model{find_segments(bent.sheet, element),
+                rim_length(bent.sheet),
+                find_anchors(bent.sheet, element, hooks),
+                data.rowwise().mean(),
+                {},
+                {},
+                {}};
+    data.colwise() -= model.mean;
+    model.modes = needed(principal_directions(data, count), data);
+    const auto settle_all = [&](int iterations) {
+        finish(model);
+        parallel_tasks(default_threads(), elements,
+                       [&](int f) { settle_element(model, bent.elements[f], flat, iterations, modes.poses[f]); });
+    };
+    for (int f = 0; f < elements; ++f) {
+        modes.poses[f].weights = model.modes.transpose() * data.col(f);
+    }
+    settle_all(3);
+    Matrix normals = normal_model(bent, modes.poses);
+    if (round == Round::Last) {
+        modes.grain = put_on_grain(model, normals, modes.poses, element.thickness);
+        settle_all(5);
+    }
+    adopt(bent, model, normals, modes, report);
+    const Eigen::Index rows = 3 * static_cast<Eigen::Index>(bent.sheet.points.size());
+    modes.mean = model.mean.head(rows);
+    modes.modes = model.modes.topRows(rows);
+    return modes;
+}
+
+//! Draw the lengths true again, with the points held part of the way back to where they came from.
+void relax(BentSurface& bent, const BentSurface& original, const Element& element, const SheetRelaxation& relaxation)
+{
+    constexpr double back = 0.3; // measured: less lifts fingers off their neighbours, more leaves lengths untrue
+    const std::array<Vec2, 4> flat = flat_corners(element);
+    parallel_tasks(default_threads(), static_cast<int>(bent.elements.size()), [&](int f) {
+        BentElement& e = bent.elements[f];
+        const std::vector<Vec3>& from = original.elements[f].points;
+        SheetRelaxation::Rows rows(e.points.size(), 3);
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            rows.row(static_cast<int>(i)) = (1 - back) * e.points[i] + back * from[i];
+        }
+        std::array<Vec3, 4> corners;
+        for (int k = 0; k < 4; ++k) {
+            corners[k] = bent_position(e.patch, flat[k]);
+        }
+        rows = relaxation.relaxed(rows, corners);
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            e.points[i] = rows.row(static_cast<int>(i));
+        }
+        e.normals = original.elements[f].normals;
+    });
+}
+
+double largest_shift(const BentSurface& a, const BentSurface& b)
+{
+    double worst = 0;
+    for (std::size_t f = 0; f < a.elements.size(); ++f) {
+        for (std::size_t i = 0; i < a.elements[f].points.size(); ++i) {
+            worst = std::max(worst, (a.elements[f].points[i] - b.elements[f].points[i]).norm());
+        }
+    }
+    return worst;
+}
+
 //! The 99th percentile of |bent/flat - 1| over all segments of all elements.
-double p99_distortion(const BentSurface& bent, const Model& model)
+double p99_distortion(const BentSurface& bent, const std::vector<Segment>& segments)
 {
     std::vector<double> all;
     for (const BentElement& e : bent.elements) {
-        for (const Segment& s : model.segments) {
+        for (const Segment& s : segments) {
             all.push_back(std::abs((e.points[s.a] - e.points[s.b]).norm() / s.length - 1));
         }
     }
@@ -276,33 +384,22 @@ double p99_distortion(const BentSurface& bent, const Model& model)
 BendingModes settle(BentSurface& bent, const Element& element, const HookParameters& hooks, int count,
                     SettleReport* report)
 {
-    BendingModes modes = aligned_elements(bent);
-    const std::array<Vec2, 4> flat = flat_corners(element);
-    Matrix data(3 * (bent.sheet.points.size() + 4), bent.elements.size());
-    for (std::size_t f = 0; f < bent.elements.size(); ++f) {
-        data.col(static_cast<int>(f)) = local_points(bent.elements[f], modes.poses[f], flat);
-    }
-    Model model{find_segments(bent.sheet, element),
-                rim_length(bent.sheet),
-                find_anchors(bent.sheet, element, hooks),
-                data.rowwise().mean(),
-                {},
-                {},
-                {}};
-    data.colwise() -= model.mean;
-    model.modes = needed(principal_directions(data, count), data);
-    finish(model);
-    parallel_tasks(default_threads(), static_cast<int>(bent.elements.size()), [&](int f) {
-        modes.poses[f].weights = model.modes.transpose() * data.col(f);
-        settle_element(model, bent.elements[f], flat, modes.poses[f]);
-    });
+    constexpr int rounds = 4;
+    const BentSurface original = bent;
+    const SheetRelaxation relaxation(bent.sheet, element, hooks, find_hooks(bent.sheet, element, hooks));
+    BendingModes modes;
     SettleReport measured;
-    measured.p99_before = p99_distortion(bent, model);
-    adopt(bent, model, modes, measured);
-    measured.p99_after = p99_distortion(bent, model);
-    const Eigen::Index rows = 3 * static_cast<Eigen::Index>(bent.sheet.points.size());
-    modes.mean = model.mean.head(rows);
-    modes.modes = model.modes.topRows(rows);
+    for (int round = 0; round < rounds; ++round) {
+        if (round > 0) {
+            relax(bent, original, element, relaxation);
+        }
+        measured = {};
+        modes = settle_once(bent, element, hooks, count, round + 1 < rounds ? Round::Rough : Round::Last, measured);
+    }
+    const std::vector<Segment> segments = find_segments(bent.sheet, element);
+    measured.max_shift_mm = largest_shift(bent, original);
+    measured.p99_before = p99_distortion(original, segments);
+    measured.p99_after = p99_distortion(bent, segments);
     if (report != nullptr) {
         *report = measured;
     }

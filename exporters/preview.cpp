@@ -77,35 +77,44 @@ bool as_true(const SettleReport& report)
            report.p99_after < std::max(0.01, 1.25 * report.p99_before);
 }
 
+struct Choice
+{
+    PreviewEncoding encoding = PreviewEncoding::Merged;
+    double max_corner_error_mm = 0; //!< that settling leaves
+};
+
 //! \brief Few modes describe regular shapes as they are. Otherwise settle all elements in few modes; when that would
 //! bend outlines, corners or lengths out of true, leave the shapes and describe them as well as modes can.
-PreviewEncoding choose_modes(PreviewModel& model, PreviewSteps& steps, const Element& element,
-                             const HookParameters& hooks, const PreviewOptions& options)
+Choice choose_modes(PreviewModel& model, PreviewSteps& steps, const Element& element, const HookParameters& hooks,
+                    const PreviewOptions& options)
 {
     const int most = affordable_modes(model.bent.elements.size(), model.bent.sheet.points.size());
     BentSurface all = together(model.bent, steps);
     BendingModes modes = bending_modes(all, 0.2 * options.tolerance_mm, most);
     if (error_mm(modes, all) < 0.2 * options.tolerance_mm) {
         part(std::move(all), std::move(modes), model, steps);
-        return PreviewEncoding::BendingModes;
+        return {PreviewEncoding::BendingModes, 0};
     }
-    SettleReport report;
-    modes = settle(all, element, hooks, most, &report);
-    if (as_true(report)) {
-        part(std::move(all), std::move(modes), model, steps);
-        return PreviewEncoding::BendingModes;
+    for (const int count : {24, 48}) {
+        SettleReport report;
+        all = together(model.bent, steps);
+        modes = settle(all, element, hooks, count, &report);
+        if (as_true(report)) {
+            part(std::move(all), std::move(modes), model, steps);
+            return {PreviewEncoding::BendingModes, report.max_corner_error_mm};
+        }
     }
     all = together(model.bent, steps);
     modes = bending_modes(all, 0.6 * options.tolerance_mm, 64);
     part(std::move(all), std::move(modes), model, steps);
-    return PreviewEncoding::Merged;
+    return {PreviewEncoding::Merged, 0};
 }
 
 //! Modes if they hold the tolerance, which only rounding can break; few elements may be smaller merged.
 Expected<CompressedPreview> smallest_glb(const PreviewModel& model, const PreviewOptions& options,
                                          PreviewEncoding& encoding)
 {
-    constexpr std::size_t few = 12;
+    constexpr std::size_t few = 60;
     Expected<CompressedPreview> best = refuse("no bending modes");
     if (encoding == PreviewEncoding::BendingModes) {
         best = modes_glb(model, options);
@@ -162,8 +171,10 @@ Expected<PreviewFiles> preview_files(const Replay& replay, const AssemblyPlan& p
     }
     PreviewModel model{std::move(*bent),  {},           element_labels(replay.surface, plan), replay.surface.components,
                        element.thickness, options.title};
-    PreviewEncoding encoding = choose_modes(model, *steps, element, hooks, options);
+    const Choice choice = choose_modes(model, *steps, element, hooks, options);
+    PreviewEncoding encoding = choice.encoding;
     model.bent.report = measure_bending(model.bent, replay.surface, element, hooks);
+    model.bent.report.max_corner_error_mm = std::max(model.bent.report.max_corner_error_mm, choice.max_corner_error_mm);
     Expected<CompressedPreview> compressed;
     Expected<PreviewPage> page;
     Expected<std::string> png;

@@ -48,7 +48,7 @@ Placed placed(const BendingModes& modes, const std::vector<Target>& targets, Out
     p.translation = (mirror.cwiseProduct(pose.origin) / grid.unit).array().round();
     p.weights.resize(modes.modes.cols());
     for (int k = 0; k < p.weights.size(); ++k) {
-        p.weights(k) = rounded(pose.weights(k) * targets[k].per_weight, targets[k].decimals);
+        p.weights(k) = std::round(pose.weights(k) * targets[k].per_weight);
     }
     return p;
 }
@@ -83,7 +83,7 @@ double decoded_error(const PreviewModel& model, const std::vector<Target>& targe
         for (std::size_t i = 0; i < base.points.size(); ++i) {
             Vec3 p = base.points[i].cast<double>();
             for (int k = 0; k < all[f].weights.size(); ++k) {
-                p += all[f].weights(k) * targets[k].points.col(base.order[i]);
+                p += all[f].weights(k) * targets[k].scale * targets[k].points.col(base.order[i]);
             }
             const Vec3 seen = unit * mirror.cwiseProduct(turn * p + all[f].translation);
             worst = std::max(worst, (seen - truth.points[base.order[i]]).norm());
@@ -101,7 +101,7 @@ Expected<DracoStream> compressed_base(const PreviewModel& model, const SolidElem
         mesh.order.push_back(static_cast<std::uint16_t>(i));
     }
     mesh.triangles = solid_triangles(model.bent.sheet, Outward::Front);
-    return compress(mesh, quantisation_bits(extent(mesh.points), grid.step / grid.unit), normal_bits);
+    return compress(mesh, quantisation_bits(extent(mesh.points), 0.5 * grid.step / grid.unit), normal_bits);
 }
 
 Json group(const std::string& name, Outward outward, const std::string& component, double unit)
@@ -182,10 +182,11 @@ CompressedPreview write(const PreviewModel& model, const PreviewOptions& options
     return {glb_bytes(glb), decoded_error(model, targets, all, mesh, grid.unit), static_cast<int>(targets.size()) - 1};
 }
 
-Expected<CompressedPreview> in_steps(const PreviewModel& model, const PreviewOptions& options, double step_mm)
+Expected<CompressedPreview> in_steps(const PreviewModel& model, const PreviewOptions& options, double step_mm,
+                                     int short_steps)
 {
     const BendingModes& modes = model.modes;
-    const MorphedElement element = morphed_element(model, step_mm);
+    const MorphedElement element = morphed_element(model, step_mm, short_steps);
     const Expected<DracoStream> base = compressed_base(model, element.mean, element.grid);
     if (!base) {
         return tl::make_unexpected(base.error());
@@ -201,15 +202,25 @@ Expected<CompressedPreview> in_steps(const PreviewModel& model, const PreviewOpt
 
 Expected<CompressedPreview> modes_glb(const PreviewModel& model, const PreviewOptions& options)
 {
-    // Rounding errors of many modes add up by chance: take the coarsest steps that hold the tolerance.
-    Expected<CompressedPreview> made;
-    for (double share = 0.5; share > 0.02; share *= 0.75) {
-        made = in_steps(model, options, share * options.tolerance_mm);
-        if (!made || made->max_error_mm <= options.tolerance_mm) {
-            break;
+    // Rounding errors of many modes add up by chance: take what is smallest of what holds the tolerance.
+    Expected<CompressedPreview> best;
+    for (const int short_steps : {127, 400, 1200}) {
+        Expected<CompressedPreview> made;
+        for (double share = 0.6; share > 0.02; share *= 0.75) {
+            made = in_steps(model, options, share * options.tolerance_mm, short_steps);
+            if (!made || made->max_error_mm <= options.tolerance_mm) {
+                break;
+            }
+        }
+        const bool good = made && made->max_error_mm <= options.tolerance_mm;
+        if (model.modes.grain.size() > 0) {
+            return made;
+        }
+        if (!best || best->bytes.empty() || (good && made->bytes.size() < best->bytes.size())) {
+            best = std::move(made);
         }
     }
-    return made;
+    return best;
 }
 
 } // namespace rhombloom

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 
@@ -11,13 +12,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-//! Fine enough for the tolerance, coarse enough that the flat target fits into 16 bits.
-Grid make_grid(double step_mm, double size_mm)
+//! No finer than asked for, coarse enough that the flat target fits into 16 bits.
+Grid make_grid(double step_mm, double size_mm, int short_steps)
 {
     Grid grid;
     grid.step = step_mm;
-    grid.unit = std::max(grid.step / 8, 1.1 * size_mm / 32767);
+    grid.unit = std::max(step_mm, 1.1 * size_mm / 32767);
     grid.turn_decimals = static_cast<int>(std::ceil(std::log10(size_mm / grid.step)));
+    grid.short_steps = short_steps;
     return grid;
 }
 
@@ -102,27 +104,59 @@ double flat_reach(const PreviewModel& model, const SolidElement& mean)
     return difference(flat_shape(model).points, mean.points, 1).cwiseAbs().maxCoeff();
 }
 
-//! Mode \p k as a target. The file's weights are below 10, in steps that move no point by more than the grid's.
-Target mode_target(const BendingModes& modes, const LocalShapes& model, int k, const Grid& grid)
+double largest_weight(const BendingModes& modes, int k)
 {
     double largest = 1e-9;
     for (const BentPose& pose : modes.poses) {
         largest = std::max(largest, std::abs(pose.weights(k)));
     }
+    return largest;
+}
+
+//! Mode \p k as a target without normals.
+Target mode_target(const BendingModes& modes, const LocalShapes& model, int k, const Grid& grid)
+{
+    const double largest = largest_weight(modes, k);
     const Eigen::VectorXd points = largest * model.points.col(k + 1);
-    const Eigen::VectorXd normals = largest * model.normals.col(k + 1);
     const Eigen::Map<const Deltas> moves(points.data(), 3, points.size() / 3);
-    const Eigen::Map<const Deltas> turns(normals.data(), 3, normals.size() / 3);
     const double steps = std::max(1.0, std::ceil(std::sqrt(moves.colwise().squaredNorm().maxCoeff()) / grid.step));
     Target target;
-    target.decimals = std::max(0, static_cast<int>(std::ceil(std::log10(steps / 10))));
-    const double top = steps / std::pow(10.0, target.decimals); // the file's weight where the mode's is `largest`
-    target.per_weight = top / largest;
-    target.points = (moves / (top * grid.unit)).array().round();
-    if (turns.cwiseAbs().maxCoeff() > 0.12) {
-        target.normals = turns / top;
+    target.per_weight = steps / largest;
+    target.one_byte = steps <= grid.short_steps;
+    target.scale = 1.0 / (target.one_byte ? 127 : 32767);
+    if (modes.grain.size() > 0 && modes.grain(k) > 0) {
+        target.one_byte = true;
+        target.scale = 1.0 / 127;
+        target.per_weight = modes.grain(k) / (target.scale * grid.unit);
     }
+    target.points = (moves / (target.per_weight * largest * grid.unit * target.scale)).array().round();
     return target;
+}
+
+//! \brief Give targets their normals, those that turn most first, until the rest is worth less than a few degrees.
+//! \details A mode's normals cost as much as its points, and only shading needs them.
+void add_normals(const BendingModes& modes, const LocalShapes& model, std::vector<Target>& targets)
+{
+    constexpr double enough = 0.1; // root mean square of all normals' changes that are left out
+    constexpr int most = 6;
+    const int count = static_cast<int>(targets.size());
+    std::vector<double> turning(count, 0);
+    for (int k = 0; k < count; ++k) {
+        for (const BentPose& pose : modes.poses) {
+            turning[k] += std::pow(pose.weights(k), 2) / static_cast<double>(modes.poses.size());
+        }
+        turning[k] *= model.normals.col(k + 1).squaredNorm() / (static_cast<double>(model.normals.rows()) / 3);
+    }
+    std::vector<int> order(count);
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return turning[a] > turning[b]; });
+    double rest = std::accumulate(turning.begin(), turning.end(), 0.0);
+    for (int i = 0; i < std::min(count, most) && rest > enough * enough; ++i) {
+        const int k = order[i];
+        const Eigen::VectorXd turns = model.normals.col(k + 1) / targets[k].per_weight;
+        targets[k].normals = Eigen::Map<const Deltas>(turns.data(), 3, turns.size() / 3);
+        rest -= turning[k];
+    }
 }
 
 //! The last target: weight 1 lays the element flat.
@@ -184,6 +218,31 @@ int shared_accessor(Glb& glb, SharedView& shared, Component component, std::size
     return accessor;
 }
 
+int add_points(Glb& glb, SharedView& view, const Target& t, const std::vector<std::uint16_t>& order)
+{
+    const int points = shared_accessor(glb, view, t.one_byte ? Component::Int8 : Component::Int16, order.size());
+    if (t.scale != 1) {
+        glb.json["accessors"][points]["normalized"] = true;
+    }
+    glb.json["accessors"][points]["min"] = bounds_of(t.points, true);
+    glb.json["accessors"][points]["max"] = bounds_of(t.points, false);
+    t.one_byte ? append<std::int8_t>(view.bytes, t.points, order, 1)
+               : append<std::int16_t>(view.bytes, t.points, order, 1);
+    return points;
+}
+
+//! Eight bits are enough for the flat target, whose weight is at most 1.
+int add_normals(Glb& glb, SharedView& view, const Deltas& turns, const std::vector<std::uint16_t>& order)
+{
+    const bool one_byte = view.stride == 4;
+    const int normals = shared_accessor(glb, view, one_byte ? Component::Int8 : Component::Int16, order.size());
+    glb.json["accessors"][normals]["normalized"] = true;
+    const Deltas clipped = turns.cwiseMin(1).cwiseMax(-1);
+    one_byte ? append<std::int8_t>(view.bytes, clipped, order, 127)
+             : append<std::int16_t>(view.bytes, clipped, order, 32767);
+    return normals;
+}
+
 } // namespace
 
 nlohmann::ordered_json short_number(double value)
@@ -192,15 +251,16 @@ nlohmann::ordered_json short_number(double value)
     return static_cast<double>(whole) == value ? Json(whole) : Json(value);
 }
 
-MorphedElement morphed_element(const PreviewModel& model, double step_mm)
+MorphedElement morphed_element(const PreviewModel& model, double step_mm, int short_steps)
 {
     const BendingModes& modes = model.modes;
     const LocalShapes shapes = linear_model(local_shapes(model, modes), modes);
     MorphedElement result{{}, mean_shape(shapes), {}};
-    result.grid = make_grid(step_mm, flat_reach(model, result.mean));
+    result.grid = make_grid(step_mm, flat_reach(model, result.mean), short_steps);
     for (int k = 0; k < modes.modes.cols(); ++k) {
         result.targets.push_back(mode_target(modes, shapes, k, result.grid));
     }
+    add_normals(modes, shapes, result.targets);
     result.targets.push_back(flat_target(model, result.mean, result.grid));
     return result;
 }
@@ -213,22 +273,10 @@ nlohmann::ordered_json add_targets(Glb& glb, const std::vector<Target>& targets,
     int zero = -1;
     Json list = Json::array();
     for (const Target& t : targets) {
-        const bool fits = t.points.cwiseAbs().maxCoeff() <= 127;
-        SharedView& view = fits ? small : large;
-        const int points = shared_accessor(glb, view, fits ? Component::Int8 : Component::Int16, order.size());
-        glb.json["accessors"][points]["min"] = bounds_of(t.points, true);
-        glb.json["accessors"][points]["max"] = bounds_of(t.points, false);
-        fits ? append<std::int8_t>(view.bytes, t.points, order, 1)
-             : append<std::int16_t>(view.bytes, t.points, order, 1);
+        const int points = add_points(glb, t.one_byte ? small : large, t, order);
         int normals = -1;
         if (t.normals.size() > 0) {
-            const bool coarse = t.normals.cwiseAbs().maxCoeff() > 0.5; // the flat target: used with weight 0 to 1
-            SharedView& normal_view = coarse ? small : large;
-            normals = shared_accessor(glb, normal_view, coarse ? Component::Int8 : Component::Int16, order.size());
-            glb.json["accessors"][normals]["normalized"] = true;
-            const Deltas clipped = t.normals.cwiseMin(1).cwiseMax(-1);
-            coarse ? append<std::int8_t>(normal_view.bytes, clipped, order, 127)
-                   : append<std::int16_t>(normal_view.bytes, clipped, order, 32767);
+            normals = add_normals(glb, t.normals.cwiseAbs().maxCoeff() > 0.5 ? small : large, t.normals, order);
         } else {
             zero = zero >= 0 ? zero : add_accessor(glb, -1, Component::Float, "VEC3", order.size());
             normals = zero;
