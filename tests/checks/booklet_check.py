@@ -183,6 +183,15 @@ def same_round_about(ids):
     return inner
 
 
+def in_blocks(pixels):
+    """Those in a square of four: the edge of a dot may have any tint, but only in single pixels."""
+    blocks = pixels[:-1, :-1] & pixels[1:, :-1] & pixels[:-1, 1:] & pixels[1:, 1:]
+    result = numpy.zeros(pixels.shape, bool)
+    for y, x in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        result[y:y + blocks.shape[0], x:x + blocks.shape[1]] |= blocks
+    return result
+
+
 def wrong_pixels(kit, step, tints, image):
     """Share of the model's pixels, lines aside, in which the printed page shows the tint of an element that a z-buffer
     says is hidden there. Where elements touch (0.01 mm; folded ones round a vertex of valence two do) either may be
@@ -212,7 +221,7 @@ def wrong_pixels(kit, step, tints, image):
         y, x = numpy.mgrid[:ids.shape[0], :ids.shape[1]] + 0.5
         cx, cy = step["inset"]["centre_pt"]
         counted &= numpy.hypot(x / scale + origin[0] - cx, origin[1] - y / scale - cy) > step["inset"]["radius_pt"] + 1
-    return (wrong & ~right & counted).sum() / max(1, counted.sum())
+    return in_blocks(wrong & ~right & counted).sum() / max(1, counted.sum())
 
 
 def check_visible(kit, tints):
