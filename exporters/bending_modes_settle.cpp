@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "core/form/parallel.h"
 #include "exporters/bent_element_relax.h"
+#include "exporters/sheet_edges.h"
 
 namespace rhombloom {
 
@@ -22,19 +22,10 @@ constexpr double hook_anchor = 0.05;
 constexpr double corner_anchor = 1e4;
 constexpr double rim_stiffness = 20;
 
-struct Segment
-{
-    int a;
-    int b;
-    double length;
-    double stiffness;
-    bool rim;
-};
-
 //! What all elements share. Points are the sheet's, then the four corners.
 struct Model
 {
-    std::vector<Segment> segments;
+    std::vector<SheetEdge> segments;
     double rim = 0; //!< length of the flat outline
     Vector anchors; //!< one per point
     Vector mean;
@@ -42,24 +33,6 @@ struct Model
     Matrix segment_modes; //!< 3 rows per segment: difference of its ends' modes
     Matrix anchored;      //!< modes^T anchors modes
 };
-
-std::vector<Segment> find_segments(const FlatSheet& sheet, const Element& element)
-{
-    const int rim = static_cast<int>(sheet.rim);
-    std::set<std::pair<int, int>> pairs;
-    for (const auto& t : sheet.triangles) {
-        for (int k = 0; k < 3; ++k) {
-            pairs.insert(std::minmax(t[k], t[(k + 1) % 3]));
-        }
-    }
-    std::vector<Segment> list;
-    for (const auto& [a, b] : pairs) {
-        const double length = (sheet.points[a] - sheet.points[b]).norm();
-        const bool outer = b < rim && (b == a + 1 || (a == 0 && b == rim - 1));
-        list.push_back({a, b, length, 0.1 * element.la / std::max(length, 0.01 * element.la), outer});
-    }
-    return list;
-}
 
 Vector find_anchors(const FlatSheet& sheet, const Element& element, const HookParameters& hooks)
 {
@@ -130,7 +103,7 @@ void add_segments(const Model& model, const Vector& shape, System& system)
     Eigen::RowVectorXd rim_row = Eigen::RowVectorXd::Zero(count);
     double rim = -model.rim;
     for (std::size_t s = 0; s < model.segments.size(); ++s) {
-        const Segment& segment = model.segments[s];
+        const SheetEdge& segment = model.segments[s];
         const int row = static_cast<int>(s);
         const Vec3 d = shape.segment<3>(3 * segment.a) - shape.segment<3>(3 * segment.b);
         const double length = std::max(d.norm(), 1e-9);
@@ -300,7 +273,7 @@ BendingModes settle_once(BentSurface& bent, const Element& element, const HookPa
     for (int f = 0; f < elements; ++f) {
         data.col(f) = local_points(bent.elements[f], modes.poses[f], flat);
     }
-    Model model{find_segments(bent.sheet, element),
+    Model model{sheet_edges(bent.sheet, element),
                 rim_length(bent.sheet),
                 find_anchors(bent.sheet, element, hooks),
                 data.rowwise().mean(),
@@ -365,20 +338,6 @@ double largest_shift(const BentSurface& a, const BentSurface& b)
     return worst;
 }
 
-//! The 99th percentile of |bent/flat - 1| over all segments of all elements.
-double p99_distortion(const BentSurface& bent, const std::vector<Segment>& segments)
-{
-    std::vector<double> all;
-    for (const BentElement& e : bent.elements) {
-        for (const Segment& s : segments) {
-            all.push_back(std::abs((e.points[s.a] - e.points[s.b]).norm() / s.length - 1));
-        }
-    }
-    const auto p99 = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 99 / 100);
-    std::nth_element(all.begin(), p99, all.end());
-    return *p99;
-}
-
 } // namespace
 
 BendingModes settle(BentSurface& bent, const Element& element, const HookParameters& hooks, int count,
@@ -396,7 +355,7 @@ BendingModes settle(BentSurface& bent, const Element& element, const HookParamet
         measured = {};
         modes = settle_once(bent, element, hooks, count, round + 1 < rounds ? Round::Rough : Round::Last, measured);
     }
-    const std::vector<Segment> segments = find_segments(bent.sheet, element);
+    const std::vector<SheetEdge> segments = sheet_edges(bent.sheet, element);
     measured.max_shift_mm = largest_shift(bent, original);
     measured.p99_before = p99_distortion(original, segments);
     measured.p99_after = p99_distortion(bent, segments);

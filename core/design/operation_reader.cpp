@@ -238,7 +238,7 @@ Expected<Quad> read_quad(const json& value, std::size_t points, const std::strin
 
 std::optional<ImportDistance> take_distance(ObjectReader& reader)
 {
-    constexpr double farthest = 1e9;
+    constexpr double absurd = 1e9;
     const json* value = reader.take("distance_mm");
     if (value == nullptr) {
         return std::nullopt;
@@ -249,10 +249,10 @@ std::optional<ImportDistance> take_distance(ObjectReader& reader)
     }
     ObjectReader inner(*value, reader.path("distance_mm"));
     ImportDistance distance;
-    distance.to_target_rms = inner.number("to_target_rms", 0, 0, farthest);
-    distance.to_target_max = inner.number("to_target_max", 0, 0, farthest);
-    distance.from_target_rms = inner.number("from_target_rms", 0, 0, farthest);
-    distance.from_target_max = inner.number("from_target_max", 0, 0, farthest);
+    distance.to_target_rms = inner.number("to_target_rms", 0, 0, absurd);
+    distance.to_target_max = inner.number("to_target_max", 0, 0, absurd);
+    distance.from_target_rms = inner.number("from_target_rms", 0, 0, absurd);
+    distance.from_target_max = inner.number("from_target_max", 0, 0, absurd);
     if (auto ok = inner.finish(); !ok) {
         reader.fail(ok.error());
     }
