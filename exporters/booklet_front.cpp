@@ -163,7 +163,7 @@ void draw_flat_piece(PdfCanvas& canvas, const BookletSources& sources, Facing fa
     const auto surface = make_surface(lists);
     expects(surface.has_value(), "draw_flat_piece: one element");
     const Viewpoint above{Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
-    const Scene scene{&*surface, {above, (right + lean) / 2, width / (e.lb + lean.x() + 0.15 * e.la)}};
+    const FigureScene scene{&*surface, {above, (right + lean) / 2, width / (e.lb + lean.x() + 0.15 * e.la)}};
     canvas.shifted(at, [&] { draw_piece(canvas, scene, {Face(0), Paint::Built}, sources.contour); });
 }
 

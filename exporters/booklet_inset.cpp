@@ -55,7 +55,8 @@ Vec2 free_corner(const StepPlace& place, const Vec2& at, double radius, const st
 }
 
 //! Where the elements there and the step's own lie on the page.
-std::vector<Vec2> model_on_page(const StepPlace& place, const Scene& scene, Face own, const std::vector<Face>& others)
+std::vector<Vec2> model_on_page(const StepPlace& place, const FigureScene& scene, Face own,
+                                const std::vector<Face>& others)
 {
     std::vector<Vec2> points = {place.centre + project(scene.camera, element_centre(*scene.surface, own))};
     for (const Face f : others) {
@@ -90,14 +91,14 @@ double detail_extent(const Polygon& p, double radius)
     return std::clamp(radius * std::sqrt(polygon_area(p) / wanted), 1.05 * reach, 1.5 * reach);
 }
 
-bool hard_to_see(const Scene& scene, Face f, const std::vector<Face>& others)
+bool hard_to_see(const FigureScene& scene, Face f, const std::vector<Face>& others)
 {
     const Polygon p = outline_of(scene, f);
     return narrowness(p) < enough_width || polygon_area(p) * mm2_per_pt2 * seen_part(scene, f, others) < enough_area;
 }
 
 //! The whole element when it is small in the figure; in the first steps, one joint.
-std::optional<Inset> inset_for(int k, const Step& step, const StepPlace& place, const Scene& scene, Face f,
+std::optional<Inset> inset_for(int k, const Step& step, const StepPlace& place, const FigureScene& scene, Face f,
                                const std::vector<Face>& others)
 {
     const Polygon p = outline_of(scene, f);
@@ -131,7 +132,7 @@ void place_insets(const Replay& replay, const AssemblyPlan& plan, std::vector<St
                 others.emplace_back(face[e]);
             }
         }
-        const Scene scene{&stage_surface(replay, step.stage), places[k].camera};
+        const FigureScene scene{&stage_surface(replay, step.stage), places[k].camera};
         const Face f(face[step.element]);
         places[k].inset = inset_for(k, step, places[k], scene, f, others);
         present[step.element] = step.kind != StepKind::Remove;
@@ -160,10 +161,10 @@ bool meets_disc(const Polygon& p, double radius)
 struct Detail
 {
     std::vector<Face> behind;
-    std::vector<Piece> pieces;
+    std::vector<DrawnPiece> pieces;
 };
 
-Detail detail(const Scene& scene, const Piece& own, double radius, const std::vector<Face>& built,
+Detail detail(const FigureScene& scene, const DrawnPiece& own, double radius, const std::vector<Face>& built,
               const std::vector<Face>& joined)
 {
     const std::vector<Face> round = faces_round(*scene.surface, own.face);
@@ -217,7 +218,7 @@ void draw_inset(PdfCanvas& canvas, const BookletSources& sources, int k, const s
     const Step& step = sources.plan.steps[k];
     const StepPlace& place = sources.layout.places[k];
     const Inset& inset = *place.inset;
-    const Scene scene{&stage_surface(sources.replay, step.stage), inset.camera};
+    const FigureScene scene{&stage_surface(sources.replay, step.stage), inset.camera};
     const Face own(face[step.element]);
     std::vector<Face> built;
     for (std::size_t e = 0; e < present.size(); ++e) {

@@ -81,7 +81,7 @@ void extend(Box& box, const Box& other)
 Box bounds_of(const Pair& pair, const BookletSources& sources)
 {
     const Surface surface = flat_pair(sources.element, pair);
-    const Scene scene{&surface, {from_above(), Vec3::Zero(), 1}};
+    const FigureScene scene{&surface, {from_above(), Vec3::Zero(), 1}};
     Box box;
     for (const int f : {0, 1}) {
         for (const Vec2& p : piece_on_paper(scene, Face(f), sources.contour)) {
@@ -102,7 +102,7 @@ struct Frames
     Box front, back;
     double scale = 1;
 
-    Scene scene(const Surface& surface, Facing facing) const
+    FigureScene scene(const Surface& surface, Facing facing) const
     {
         const Box& box = facing == Facing::Front ? front : back;
         const Vec2 middle = (box.min + box.max) / 2;
@@ -122,10 +122,10 @@ Frames frames_for(const std::vector<Panel>& panels, const BookletSources& source
 }
 
 //! Bodies first, A under B; then what lies over B again.
-void draw_pair(PdfCanvas& canvas, const Scene& scene, const PieceContour& contour, Over over)
+void draw_pair(PdfCanvas& canvas, const FigureScene& scene, const PieceContour& contour, Over over)
 {
-    const Piece a{Face(0), Paint::Built};
-    const Piece b{Face(1), Paint::Next};
+    const DrawnPiece a{Face(0), Paint::Built};
+    const DrawnPiece b{Face(1), Paint::Next};
     draw_piece(canvas, scene, a, contour);
     draw_piece(canvas, scene, b, contour);
     if (over == Over::Hooked || over == Over::FirstHook) {
@@ -139,9 +139,9 @@ void draw_pair(PdfCanvas& canvas, const Scene& scene, const PieceContour& contou
     }
 }
 
-void draw_close_up(PdfCanvas& canvas, const Scene& scene, const PieceContour& contour, double radius)
+void draw_close_up(PdfCanvas& canvas, const FigureScene& scene, const PieceContour& contour, double radius)
 {
-    Scene near = scene;
+    FigureScene near = scene;
     near.camera.scale *= 3.4;
     near.camera.look_at =
         scene.surface->point(Vertex(1)) + 0.17 * (scene.surface->point(Vertex(2)) - scene.surface->point(Vertex(1)));
@@ -161,7 +161,7 @@ void draw_panel(PdfCanvas& canvas, const BookletSources& sources, const Panel& p
     const Vec2& corner = place.corner;
     const Vec2& size = place.size;
     const Surface surface = flat_pair(sources.element, panel.pair);
-    const Scene scene = frames.scene(surface, panel.pair.facing);
+    const FigureScene scene = frames.scene(surface, panel.pair.facing);
     canvas.outline({corner, corner + Vec2(size.x(), 0), corner + size, corner + Vec2(0, size.y())}, {0.6, 0xB0B0B0, 0});
     canvas.tagged("P", [&] {
         canvas.text(std::to_string(place.number), corner + Vec2(8, 22), {18});

@@ -92,7 +92,7 @@ double median_area(const Replay& replay, const AssemblyPlan& plan, const Chapter
         if (face.empty()) {
             face = faces_of_elements(replay, plan, step.stage);
         }
-        const Scene scene{&stage_surface(replay, step.stage), places[k].camera};
+        const FigureScene scene{&stage_surface(replay, step.stage), places[k].camera};
         areas.push_back(polygon_area(outline_of(scene, Face(face[step.element]))) * (25.4 / 72) * (25.4 / 72));
     }
     std::sort(areas.begin(), areas.end());

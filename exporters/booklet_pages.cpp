@@ -48,7 +48,8 @@ std::vector<Face> all_faces(const Surface& surface)
 }
 
 //! Faces in painter's order, those of one chapter marked.
-void draw_faces(PdfCanvas& canvas, const Scene& scene, const std::vector<Face>& faces, const std::vector<char>& marked)
+void draw_faces(PdfCanvas& canvas, const FigureScene& scene, const std::vector<Face>& faces,
+                const std::vector<char>& marked)
 {
     for (const Face f : painter_order(scene, faces)) {
         draw_element(canvas, scene, f, !marked.empty() && marked[f.idx()] ? Paint::Chapter : Paint::Faint);
@@ -109,8 +110,8 @@ Camera draw_model(PdfCanvas& canvas, const BookletSources& sources, const Vec2& 
     const Surface& surface = sources.replay.surface;
     const std::vector<Face> faces = all_faces(surface);
     const bool hooked = static_cast<int>(faces.size()) <= most_hooked;
-    const Scene scene{&surface, model_camera(sources, view, half)};
-    std::vector<Piece> pieces;
+    const FigureScene scene{&surface, model_camera(sources, view, half)};
+    std::vector<DrawnPiece> pieces;
     for (const Face f : painter_order(scene, faces)) {
         const bool hooks = hooked && from_outside(scene, f) && seen_part(scene, f, faces) > 0.95;
         pieces.push_back({f, f.idx() == marked ? Paint::Next : Paint::Built, hooks});
@@ -168,7 +169,7 @@ void draw_chapter(PdfCanvas& canvas, const BookletSources& sources, int chapter)
         }
     }
     const Vec2 half(text_width(sources) / 2, paper.height * 0.36);
-    const Scene scene{&surface, fitted_camera(surface, faces, {portrait_view}, half)};
+    const FigureScene scene{&surface, fitted_camera(surface, faces, {portrait_view}, half)};
     canvas.figure("The goal of this chapter: " + c.title + ".", [&] {
         canvas.shifted(Vec2(paper.width / 2, paper.height * 0.53), [&] { draw_faces(canvas, scene, faces, marked); });
     });

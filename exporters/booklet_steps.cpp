@@ -34,7 +34,7 @@ struct Run
 //! By chapter, stage and view.
 using GhostKey = std::array<int, 3>;
 
-void draw_painted(PdfCanvas& canvas, const Scene& scene, const Painted& painted, Paint paint)
+void draw_painted(PdfCanvas& canvas, const FigureScene& scene, const Painted& painted, Paint paint)
 {
     if (painted.over.is_valid()) {
         draw_part(canvas, scene, painted, paint);
@@ -58,7 +58,7 @@ struct StepPictures::State
     const std::vector<int>& face(int k) const { return faces.at(step(k).stage); }
     int count() const { return static_cast<int>(sources.plan.steps.size()); }
 
-    Scene scene(int k) const { return {&stage_surface(sources.replay, step(k).stage), place(k).camera}; }
+    FigureScene scene(int k) const { return {&stage_surface(sources.replay, step(k).stage), place(k).camera}; }
 
     int chapter(int k) const
     {
@@ -93,7 +93,7 @@ void StepPictures::State::find_runs()
 
 std::shared_ptr<const PdfGroup> StepPictures::State::draw_ghost(int k) const
 {
-    const Scene seen = scene(k);
+    const FigureScene seen = scene(k);
     return pdf_group(font, place(k).half.maxCoeff() + 4, [&](PdfCanvas& canvas) {
         for (const Face f : painter_order(seen, shown_faces(sources.replay, sources.plan, step(k).stage))) {
             draw_element(canvas, seen, f, Paint::Ghost);
@@ -118,7 +118,7 @@ void StepPictures::State::draw_run(Run& run) const
             element_of[face_of[e]] = static_cast<int>(e);
         }
     }
-    const Scene seen = scene(run.first);
+    const FigureScene seen = scene(run.first);
     const std::vector<Painted> order = painter_sequence(seen, shown);
     const auto element = [&](Face f) { return f.is_valid() ? element_of[f.idx()] : -1; };
     const auto changes = [&](Face f) { return f.is_valid() && changing[element_of[f.idx()]]; };
@@ -183,7 +183,7 @@ struct StepDrawing
     std::vector<int> face;
     std::vector<char> present; // before the step
     std::vector<int> names;
-    Scene scene;
+    FigureScene scene;
 
     const Step& step() const { return sources.plan.steps[k]; }
     const StepPlace& place() const { return sources.layout.places[k]; }

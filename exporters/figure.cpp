@@ -29,7 +29,7 @@ unsigned mixed(unsigned a, unsigned b, double share)
 }
 
 //! Light from the upper left, behind the reader's shoulder; few steps, so that colours repeat in the file.
-double shade(const Scene& scene, const Vec3& normal)
+double shade(const FigureScene& scene, const Vec3& normal)
 {
     const Viewpoint& eye = scene.camera.view;
     const Vec3 light = (0.5 * eye.toward + 0.6 * eye.up - 0.6 * eye.right).normalized();
@@ -74,7 +74,7 @@ void draw_dots(PdfCanvas& canvas, const Polygon& p, unsigned rgb)
     canvas.dots(rows, std::clamp(0.38 * spacing, 0.9, 2.2), spacing, rgb);
 }
 
-bool flipped(const Scene& scene, Face f)
+bool flipped(const FigureScene& scene, Face f)
 {
     return scene.surface->data(f).facing == Facing::Back;
 }
@@ -85,7 +85,7 @@ double wedge(const Vec2& a, const Vec2& b)
 }
 
 //! The depth of an element at a point on the paper, or nothing where the point is outside.
-std::optional<double> depth_at(const Scene& scene, Face f, const Vec2& point)
+std::optional<double> depth_at(const FigureScene& scene, Face f, const Vec2& point)
 {
     const Quad q = quad(*scene.surface, f);
     const Polygon p = outline_of(scene, f);
@@ -101,14 +101,14 @@ std::optional<double> depth_at(const Scene& scene, Face f, const Vec2& point)
     return {};
 }
 
-Vec3 on_element(const Scene& scene, Face f, double u, double v)
+Vec3 on_element(const FigureScene& scene, Face f, double u, double v)
 {
     const Quad q = quad(*scene.surface, f);
     const auto x = [&](int k) -> Vec3 { return scene.surface->point(Vertex(q[k])); };
     return (1 - u) * ((1 - v) * x(0) + v * x(3)) + u * ((1 - v) * x(1) + v * x(2));
 }
 
-bool hidden(const Scene& scene, const Vec3& point, Face own, const std::vector<Face>& others)
+bool hidden(const FigureScene& scene, const Vec3& point, Face own, const std::vector<Face>& others)
 {
     const Vec2 on_paper = project(scene.camera, point);
     const double z = depth(scene.camera, point);
@@ -120,7 +120,7 @@ bool hidden(const Scene& scene, const Vec3& point, Face own, const std::vector<F
 }
 
 //! Those of \p others whose bounds meet the element's.
-std::vector<Face> near_on_paper(const Scene& scene, Face f, const std::vector<Face>& others)
+std::vector<Face> near_on_paper(const FigureScene& scene, Face f, const std::vector<Face>& others)
 {
     const auto box = [&](Face g) {
         Box b;
@@ -143,12 +143,12 @@ std::vector<Face> near_on_paper(const Scene& scene, Face f, const std::vector<Fa
 
 } // namespace
 
-bool from_outside(const Scene& scene, Face f)
+bool from_outside(const FigureScene& scene, Face f)
 {
     return element_normal(*scene.surface, f).dot(scene.camera.view.toward) > 0;
 }
 
-unsigned element_tint(const Scene& scene, Face f, Paint paint)
+unsigned element_tint(const FigureScene& scene, Face f, Paint paint)
 {
     if (paint == Paint::Next) {
         return colour::next;
@@ -171,7 +171,7 @@ unsigned element_tint(const Scene& scene, Face f, Paint paint)
 
 namespace {
 
-bool has_dots(const Scene& scene, Face f, Paint paint)
+bool has_dots(const FigureScene& scene, Face f, Paint paint)
 {
     return flipped(scene, f) && (paint == Paint::Next || from_outside(scene, f));
 }
@@ -196,7 +196,7 @@ void add_common_edges(const Polygon& element, const Polygon& part, std::vector<P
 
 } // namespace
 
-void draw_flip_dots(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint)
+void draw_flip_dots(PdfCanvas& canvas, const FigureScene& scene, Face f, Paint paint)
 {
     if (has_dots(scene, f, paint)) {
         draw_dots(canvas, outline_of(scene, f),
@@ -206,7 +206,7 @@ void draw_flip_dots(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint)
     }
 }
 
-Polygon outline_of(const Scene& scene, Face f)
+Polygon outline_of(const FigureScene& scene, Face f)
 {
     Polygon p;
     for (const int v : quad(*scene.surface, f)) {
@@ -224,7 +224,7 @@ double polygon_area(const Polygon& polygon)
     return std::abs(sum);
 }
 
-double seen_part(const Scene& scene, Face f, const std::vector<Face>& others)
+double seen_part(const FigureScene& scene, Face f, const std::vector<Face>& others)
 {
     constexpr int samples = 6;
     const std::vector<Face> near = near_on_paper(scene, f, others);
@@ -252,7 +252,7 @@ void draw_folded_halves(PdfCanvas& canvas, const Polygon& p, unsigned tint, cons
 
 } // namespace
 
-void draw_element(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint)
+void draw_element(PdfCanvas& canvas, const FigureScene& scene, Face f, Paint paint)
 {
     const Polygon p = outline_of(scene, f);
     draw_folded_halves(canvas, p, element_tint(scene, f, paint), edge_line(paint));
@@ -266,7 +266,7 @@ void draw_element(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint)
     }
 }
 
-void draw_part(PdfCanvas& canvas, const Scene& scene, const Painted& painted, Paint paint)
+void draw_part(PdfCanvas& canvas, const FigureScene& scene, const Painted& painted, Paint paint)
 {
     const Polygon p = outline_of(scene, painted.face);
     const unsigned tint = element_tint(scene, painted.face, paint);
@@ -287,7 +287,7 @@ void draw_part(PdfCanvas& canvas, const Scene& scene, const Painted& painted, Pa
     canvas.strokes(edges, edge_line(paint));
 }
 
-void draw_joined_sides(PdfCanvas& canvas, const Scene& scene, Face f, const std::vector<int>& sides,
+void draw_joined_sides(PdfCanvas& canvas, const FigureScene& scene, Face f, const std::vector<int>& sides,
                        const std::vector<Face>& built)
 {
     constexpr int pieces = 12;
@@ -331,7 +331,7 @@ double way_out(const Vec2& from, const Vec2& along, const Box& room)
 }
 
 //! Where the element comes from, as a direction on the paper.
-Vec2 arrow_direction(const Scene& scene, Face f, const std::vector<int>& joined)
+Vec2 arrow_direction(const FigureScene& scene, Face f, const std::vector<int>& joined)
 {
     const Polygon p = outline_of(scene, f);
     Vec2 from = Vec2::Zero();
@@ -348,7 +348,7 @@ Vec2 arrow_direction(const Scene& scene, Face f, const std::vector<int>& joined)
 
 } // namespace
 
-void draw_arrow(PdfCanvas& canvas, const Scene& scene, Face f, const Arrow& arrow)
+void draw_arrow(PdfCanvas& canvas, const FigureScene& scene, Face f, const Arrow& arrow)
 {
     const Polygon p = outline_of(scene, f);
     const Vec2 from = arrow_direction(scene, f, arrow.joined);

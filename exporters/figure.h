@@ -25,19 +25,19 @@ inline constexpr unsigned dot = 0x6A6A6A;
 } // namespace colour
 
 //! \brief A surface seen by a camera: what every figure is drawn from.
-struct Scene
+struct FigureScene
 {
     const Surface* surface = nullptr;
     Camera camera;
 };
 
 //! \brief The four corners of an element on the paper, relative to the figure's centre.
-Polygon outline_of(const Scene& scene, Face f);
+Polygon outline_of(const FigureScene& scene, Face f);
 
 //! \brief The faces from the farthest to the nearest: none is drawn before one it hides.
 //! \details Where elements overlap on the paper, the pixels tell which lies in front; the order is a topological sort
 //! of these facts, with the mean depth as tie-break. Any part of the result, in the same sequence, is right as well.
-std::vector<Face> painter_order(const Scene& scene, const std::vector<Face>& faces);
+std::vector<Face> painter_order(const FigureScene& scene, const std::vector<Face>& faces);
 
 //! \brief A face in a painting; or a face whose visible part over another is painted once more.
 struct Painted
@@ -49,10 +49,10 @@ struct Painted
 
 //! \brief painter_order, and where no order of whole faces is right (they cut each other, or hide each other in a
 //! circle) the parts that come to light again, each right after the face that hid it.
-std::vector<Painted> painter_sequence(const Scene& scene, const std::vector<Face>& faces);
+std::vector<Painted> painter_sequence(const FigureScene& scene, const std::vector<Face>& faces);
 
 //! \brief How much of an element, 0..1, is in front of all of \p others, found by sampling.
-double seen_part(const Scene& scene, Face f, const std::vector<Face>& others);
+double seen_part(const FigureScene& scene, Face f, const std::vector<Face>& others);
 
 enum class Paint
 {
@@ -65,25 +65,25 @@ enum class Paint
 };
 
 //! \brief One element: tinted by its slope and by which face is seen, dotted when it is flipped.
-void draw_element(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint);
+void draw_element(PdfCanvas& canvas, const FigureScene& scene, Face f, Paint paint);
 
 //! \brief Parts of an element once more; see painter_sequence.
-void draw_part(PdfCanvas& canvas, const Scene& scene, const Painted& painted, Paint paint);
+void draw_part(PdfCanvas& canvas, const FigureScene& scene, const Painted& painted, Paint paint);
 
 //! \brief The fill of an element: by its slope, or its side when seen from inside, or what is done with it.
-unsigned element_tint(const Scene& scene, Face f, Paint paint);
+unsigned element_tint(const FigureScene& scene, Face f, Paint paint);
 
 //! \brief The dots of a flipped element; nothing for others and for those seen from inside.
-void draw_flip_dots(PdfCanvas& canvas, const Scene& scene, Face f, Paint paint);
+void draw_flip_dots(PdfCanvas& canvas, const FigureScene& scene, Face f, Paint paint);
 
 //! \brief Is the element seen from outside?
-bool from_outside(const Scene& scene, Face f);
+bool from_outside(const FigureScene& scene, Face f);
 
 //! \brief Area of a polygon, unsigned, in the square of its unit.
 double polygon_area(const Polygon& polygon);
 
 //! \brief The sides just joined, drawn thick where nothing built hides them.
-void draw_joined_sides(PdfCanvas& canvas, const Scene& scene, Face f, const std::vector<int>& sides,
+void draw_joined_sides(PdfCanvas& canvas, const FigureScene& scene, Face f, const std::vector<int>& sides,
                        const std::vector<Face>& built);
 
 struct Arrow
@@ -94,6 +94,6 @@ struct Arrow
 };
 
 //! \brief An arrow that shows where the element comes from: across its free sides, else from outside.
-void draw_arrow(PdfCanvas& canvas, const Scene& scene, Face f, const Arrow& arrow);
+void draw_arrow(PdfCanvas& canvas, const FigureScene& scene, Face f, const Arrow& arrow);
 
 } // namespace rhombloom

@@ -23,7 +23,7 @@ std::array<int, 4> corners_of_piece(const Surface& surface, Face f)
     return corners;
 }
 
-Polygon node_polygon(const Scene& scene, Face f)
+Polygon node_polygon(const FigureScene& scene, Face f)
 {
     Polygon nodes;
     for (const int v : corners_of_piece(*scene.surface, f)) {
@@ -54,12 +54,12 @@ Line contour_line(Paint paint)
 }
 
 //! Does another of the pieces lie beyond this side of the piece?
-bool is_joined(const Surface& surface, Face f, int side, const std::vector<Piece>& pieces)
+bool is_joined(const Surface& surface, Face f, int side, const std::vector<DrawnPiece>& pieces)
 {
     const std::array<int, 4> corners = corners_of_piece(surface, f);
     const int a = corners[side];
     const int b = corners[(side + 1) % 4];
-    return std::any_of(pieces.begin(), pieces.end(), [&](const Piece& piece) {
+    return std::any_of(pieces.begin(), pieces.end(), [&](const DrawnPiece& piece) {
         const Quad q = quad(surface, piece.face);
         return piece.face != f && std::count(q.begin(), q.end(), a) > 0 && std::count(q.begin(), q.end(), b) > 0;
     });
@@ -138,20 +138,20 @@ PieceContour piece_contour(const Element& element)
     return contour;
 }
 
-Polygon piece_on_paper(const Scene& scene, Face f, const PieceContour& contour)
+Polygon piece_on_paper(const FigureScene& scene, Face f, const PieceContour& contour)
 {
     return mapped(node_polygon(scene, f), contour.outline);
 }
 
-void draw_piece(PdfCanvas& canvas, const Scene& scene, const Piece& piece, const PieceContour& contour)
+void draw_piece(PdfCanvas& canvas, const FigureScene& scene, const DrawnPiece& piece, const PieceContour& contour)
 {
     canvas.fill_and_outline(piece_on_paper(scene, piece.face, contour), element_tint(scene, piece.face, piece.paint),
                             contour_line(piece.paint));
     draw_flip_dots(canvas, scene, piece.face, piece.paint);
 }
 
-void draw_flaps(PdfCanvas& canvas, const Scene& scene, const Piece& piece, const PieceContour& contour, int side,
-                int count)
+void draw_flaps(PdfCanvas& canvas, const FigureScene& scene, const DrawnPiece& piece, const PieceContour& contour,
+                int side, int count)
 {
     const Polygon nodes = node_polygon(scene, piece.face);
     for (const auto& flap : contour.flaps[side]) {
@@ -162,16 +162,17 @@ void draw_flaps(PdfCanvas& canvas, const Scene& scene, const Piece& piece, const
     }
 }
 
-void draw_pieces(PdfCanvas& canvas, const Scene& scene, const std::vector<Piece>& pieces, const PieceContour& contour)
+void draw_pieces(PdfCanvas& canvas, const FigureScene& scene, const std::vector<DrawnPiece>& pieces,
+                 const PieceContour& contour)
 {
-    for (const Piece& piece : pieces) {
+    for (const DrawnPiece& piece : pieces) {
         if (piece.hooks) {
             draw_piece(canvas, scene, piece, contour);
         } else {
             draw_element(canvas, scene, piece.face, piece.paint);
         }
     }
-    for (const Piece& piece : pieces) {
+    for (const DrawnPiece& piece : pieces) {
         for (int side = 0; side < 4 && piece.hooks; ++side) {
             if (is_joined(*scene.surface, piece.face, side, pieces)) {
                 draw_flaps(canvas, scene, piece, contour, side);

@@ -16,9 +16,9 @@ struct PieceContour
 PieceContour piece_contour(const Element& element);
 
 //! \brief The piece on the paper, in the place of an element, turned over when it is flipped.
-Polygon piece_on_paper(const Scene& scene, Face f, const PieceContour& contour);
+Polygon piece_on_paper(const FigureScene& scene, Face f, const PieceContour& contour);
 
-struct Piece
+struct DrawnPiece
 {
     Face face;
     Paint paint = Paint::Built;
@@ -26,17 +26,18 @@ struct Piece
 };
 
 //! \brief One piece without regard to others.
-void draw_piece(PdfCanvas& canvas, const Scene& scene, const Piece& piece, const PieceContour& contour);
+void draw_piece(PdfCanvas& canvas, const FigureScene& scene, const DrawnPiece& piece, const PieceContour& contour);
 
 //! \brief Once more what lies beyond one side of the piece (0 and 2 are long, with lips; 1 and 3 short, with hooks).
 //! \param count of the side's flaps, from its first corner on
-void draw_flaps(PdfCanvas& canvas, const Scene& scene, const Piece& piece, const PieceContour& contour, int side,
-                int count = 2);
+void draw_flaps(PdfCanvas& canvas, const FigureScene& scene, const DrawnPiece& piece, const PieceContour& contour,
+                int side, int count = 2);
 
 //! \brief Pieces with their hooks and lips, back to front. At joints the hooks of short sides lie over the long side,
 //! whose lip lies over the short side's rim: no order of whole pieces can show that, so what reaches beyond a piece's
 //! own sides is drawn after all bodies.
-void draw_pieces(PdfCanvas& canvas, const Scene& scene, const std::vector<Piece>& pieces, const PieceContour& contour);
+void draw_pieces(PdfCanvas& canvas, const FigureScene& scene, const std::vector<DrawnPiece>& pieces,
+                 const PieceContour& contour);
 
 //! \brief The faces that share a vertex with \p f.
 std::vector<Face> faces_round(const Surface& surface, Face f);

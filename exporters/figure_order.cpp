@@ -22,7 +22,7 @@ constexpr int noticeable = 9;
 class LayeredRaster
 {
 public:
-    LayeredRaster(const Scene& scene, const std::vector<Face>& faces)
+    LayeredRaster(const FigureScene& scene, const std::vector<Face>& faces)
     {
         Vec2 low = Vec2::Constant(1e300);
         Vec2 high = Vec2::Constant(-1e300);
@@ -47,7 +47,7 @@ public:
     const std::vector<Layers>& pixels() const { return pixels_; }
 
 private:
-    void add(const Scene& scene, Face f, int index)
+    void add(const FigureScene& scene, Face f, int index)
     {
         const Quad q = quad(*scene.surface, f);
         std::array<Vec3, 4> p;
@@ -186,7 +186,7 @@ std::vector<int> sorted(const Votes& in_front, const std::vector<double>& depths
     return order;
 }
 
-std::vector<int> ordered(const Scene& scene, const std::vector<Face>& faces, const LayeredRaster& raster)
+std::vector<int> ordered(const FigureScene& scene, const std::vector<Face>& faces, const LayeredRaster& raster)
 {
     std::vector<double> depths;
     std::vector<char> outside;
@@ -237,7 +237,7 @@ Polygon cut(const Polygon& polygon, const Height& height)
 //! Half of a face on the paper: three corners with their depths.
 using Half = std::array<Vec3, 3>;
 
-std::array<Half, 2> halves(const Scene& scene, Face f)
+std::array<Half, 2> halves(const FigureScene& scene, Face f)
 {
     const Quad q = quad(*scene.surface, f);
     const auto corner = [&](int k) {
@@ -278,7 +278,7 @@ Polygon part_in_front(const Half& near, const Half& far)
     return cut(part, [&](const Vec2& p) { return depth_in(near, p) - depth_in(far, p); });
 }
 
-Painted once_more(const Scene& scene, Face near, Face far)
+Painted once_more(const FigureScene& scene, Face near, Face far)
 {
     constexpr double smallest = 0.05; // square points
     Painted result{near, far, {}};
@@ -295,7 +295,7 @@ Painted once_more(const Scene& scene, Face near, Face far)
 
 } // namespace
 
-std::vector<Face> painter_order(const Scene& scene, const std::vector<Face>& faces)
+std::vector<Face> painter_order(const FigureScene& scene, const std::vector<Face>& faces)
 {
     std::vector<Face> result;
     if (!faces.empty()) {
@@ -306,7 +306,7 @@ std::vector<Face> painter_order(const Scene& scene, const std::vector<Face>& fac
     return result;
 }
 
-std::vector<Painted> painter_sequence(const Scene& scene, const std::vector<Face>& faces)
+std::vector<Painted> painter_sequence(const FigureScene& scene, const std::vector<Face>& faces)
 {
     if (faces.empty()) {
         return {};

@@ -31,7 +31,7 @@ struct Placed
 };
 
 //! What the file says about element \p f: pose and weights, rounded. The mirrored group negates z.
-Placed placed(const BendingModes& modes, const std::vector<Target>& targets, Outward outward, std::size_t f,
+Placed placed(const BendingModes& modes, const std::vector<MorphTarget>& targets, Outward outward, std::size_t f,
               const Grid& grid)
 {
     const BentPose& pose = modes.poses[f];
@@ -71,7 +71,7 @@ Json node(const PreviewModel& model, const Placed& p, std::size_t f, int mesh)
 }
 
 //! The largest distance of any point, decoded and put together as a viewer does it, from where it belongs.
-double decoded_error(const PreviewModel& model, const std::vector<Target>& targets, const std::vector<Placed>& all,
+double decoded_error(const PreviewModel& model, const std::vector<MorphTarget>& targets, const std::vector<Placed>& all,
                      const DracoMesh& base, double unit)
 {
     double worst = 0;
@@ -161,7 +161,7 @@ void add_meshes(Glb& glb, const PreviewModel& model, const Json& primitive, std:
 }
 
 CompressedPreview write(const PreviewModel& model, const PreviewOptions& options, const DracoStream& base,
-                        const std::vector<Target>& targets, const std::vector<Placed>& all, const Grid& grid)
+                        const std::vector<MorphTarget>& targets, const std::vector<Placed>& all, const Grid& grid)
 {
     Glb glb = make_glb(model.title);
     glb.json["extensionsUsed"] = {"KHR_draco_mesh_compression", "KHR_mesh_quantization"};

@@ -114,13 +114,13 @@ double largest_weight(const BendingModes& modes, int k)
 }
 
 //! Mode \p k as a target without normals.
-Target mode_target(const BendingModes& modes, const LocalShapes& model, int k, const Grid& grid)
+MorphTarget mode_target(const BendingModes& modes, const LocalShapes& model, int k, const Grid& grid)
 {
     const double largest = largest_weight(modes, k);
     const Eigen::VectorXd points = largest * model.points.col(k + 1);
     const Eigen::Map<const Deltas> moves(points.data(), 3, points.size() / 3);
     const double steps = std::max(1.0, std::ceil(std::sqrt(moves.colwise().squaredNorm().maxCoeff()) / grid.step));
-    Target target;
+    MorphTarget target;
     target.per_weight = steps / largest;
     target.one_byte = steps <= grid.short_steps;
     target.scale = 1.0 / (target.one_byte ? 127 : 32767);
@@ -135,7 +135,7 @@ Target mode_target(const BendingModes& modes, const LocalShapes& model, int k, c
 
 //! \brief Give targets their normals, those that turn most first, until the rest is worth less than a few degrees.
 //! \details A mode's normals cost as much as its points, and only shading needs them.
-void add_normals(const BendingModes& modes, const LocalShapes& model, std::vector<Target>& targets)
+void add_normals(const BendingModes& modes, const LocalShapes& model, std::vector<MorphTarget>& targets)
 {
     constexpr double enough = 0.1; // root mean square of all normals' changes that are left out
     constexpr int most = 6;
@@ -160,10 +160,10 @@ void add_normals(const BendingModes& modes, const LocalShapes& model, std::vecto
 }
 
 //! The last target: weight 1 lays the element flat.
-Target flat_target(const PreviewModel& model, const SolidElement& mean, const Grid& grid)
+MorphTarget flat_target(const PreviewModel& model, const SolidElement& mean, const Grid& grid)
 {
     const SolidElement flat = flat_shape(model);
-    Target target;
+    MorphTarget target;
     target.points = (difference(flat.points, mean.points, 1 / grid.unit)).array().round();
     target.normals = difference(flat.normals, mean.normals, 1);
     return target;
@@ -218,7 +218,7 @@ int shared_accessor(Glb& glb, SharedView& shared, Component component, std::size
     return accessor;
 }
 
-int add_points(Glb& glb, SharedView& view, const Target& t, const std::vector<std::uint16_t>& order)
+int add_points(Glb& glb, SharedView& view, const MorphTarget& t, const std::vector<std::uint16_t>& order)
 {
     const int points = shared_accessor(glb, view, t.one_byte ? Component::Int8 : Component::Int16, order.size());
     if (t.scale != 1) {
@@ -265,14 +265,14 @@ MorphedElement morphed_element(const PreviewModel& model, double step_mm, int sh
     return result;
 }
 
-nlohmann::ordered_json add_targets(Glb& glb, const std::vector<Target>& targets,
+nlohmann::ordered_json add_targets(Glb& glb, const std::vector<MorphTarget>& targets,
                                    const std::vector<std::uint16_t>& order)
 {
     SharedView small{{}, 4, {}};
     SharedView large{{}, 8, {}};
     int zero = -1;
     Json list = Json::array();
-    for (const Target& t : targets) {
+    for (const MorphTarget& t : targets) {
         const int points = add_points(glb, t.one_byte ? small : large, t, order);
         int normals = -1;
         if (t.normals.size() > 0) {

@@ -17,7 +17,7 @@ struct Grid
 };
 
 //! A morph target: what is added to points and normals for weight 1.
-struct Target
+struct MorphTarget
 {
     Deltas points;         //!< whole numbers
     double scale = 1;      //!< units per whole number
@@ -32,13 +32,13 @@ struct MorphedElement
 {
     Grid grid;
     SolidElement mean; //!< mm
-    std::vector<Target> targets;
+    std::vector<MorphTarget> targets;
 };
 
 MorphedElement morphed_element(const PreviewModel& model, double step_mm, int short_steps);
 
 //! \brief Write all targets in the order \p order of the points; the primitive's list of targets.
-nlohmann::ordered_json add_targets(Glb& glb, const std::vector<Target>& targets,
+nlohmann::ordered_json add_targets(Glb& glb, const std::vector<MorphTarget>& targets,
                                    const std::vector<std::uint16_t>& order);
 
 //! \brief A number without ".0" when it is whole: lists of them are most of the file.

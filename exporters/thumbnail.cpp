@@ -17,9 +17,9 @@ using Color = Eigen::Vector3f; // linear light
 
 constexpr int supersampling = 3;
 
-Scene scene_of(const BentSurface& bent)
+RasterScene scene_of(const BentSurface& bent)
 {
-    Scene scene;
+    RasterScene scene;
     for (std::size_t f = 0; f < bent.elements.size(); ++f) {
         const BentElement& e = bent.elements[f];
         const int first = static_cast<int>(scene.points.size());
@@ -64,7 +64,7 @@ Projection parallel_projection(const std::vector<Vec3>& points, const Vec3& dire
     return projection;
 }
 
-Lights make_lights(const Scene& scene, const PictureCamera& camera)
+Lights make_lights(const RasterScene& scene, const PictureCamera& camera)
 {
     Lights lights;
     lights.key = (camera.back * 0.75 + camera.up * 0.85 - camera.right * 0.7).normalized();
@@ -306,7 +306,7 @@ Expected<std::string> picture_png(const BentSurface& bent, const PictureOptions&
         return refuse("the picture is " + std::to_string(options.width) + " x " + std::to_string(options.height) +
                       " pixels: expected 16 to 8192 each way");
     }
-    const Scene scene = scene_of(bent);
+    const RasterScene scene = scene_of(bent);
     Projection projection;
     projection.camera = fitted_camera(scene.points, options);
     projection.width = options.width * supersampling;

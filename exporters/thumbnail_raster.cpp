@@ -76,7 +76,7 @@ Vec3 Projection::unproject(double x, double y, double depth) const
            camera.back * depth;
 }
 
-Samples rasterise(const Scene& scene, const Projection& projection, double sheet_range_mm)
+Samples rasterise(const RasterScene& scene, const Projection& projection, double sheet_range_mm)
 {
     std::vector<Vec3> projected;
     projected.reserve(scene.points.size());

@@ -8,7 +8,7 @@
 namespace rhombloom {
 
 //! \brief Triangles to draw, two-sided; one normal per point and one element number per triangle.
-struct Scene
+struct RasterScene
 {
     std::vector<Vec3> points;  //!< mm
     std::vector<Vec3> normals; //!< unit, outward
@@ -44,6 +44,6 @@ struct Projection
     Vec3 unproject(double x, double y, double depth) const;
 };
 
-Samples rasterise(const Scene& scene, const Projection& projection, double sheet_range_mm);
+Samples rasterise(const RasterScene& scene, const Projection& projection, double sheet_range_mm);
 
 } // namespace rhombloom

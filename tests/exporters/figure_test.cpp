@@ -20,11 +20,11 @@ struct Model
         }
     }
 
-    Scene scene(int view) const { return {&surface, fitted_camera(surface, faces, {view}, Vec2(100, 100))}; }
+    FigureScene scene(int view) const { return {&surface, fitted_camera(surface, faces, {view}, Vec2(100, 100))}; }
 };
 
 //! The face that covers a point, nearest to the eye, by the planes of its two triangles; none when nothing does.
-Face nearest(const Scene& scene, const std::vector<Face>& faces, const Vec3& point)
+Face nearest(const FigureScene& scene, const std::vector<Face>& faces, const Vec3& point)
 {
     const Vec3 eye = scene.camera.view.toward;
     Face best;
@@ -53,7 +53,7 @@ TEST(PainterOrder, DrawsNothingOverWhatIsNearer)
     for (const char* name : {"ball-30", "torus-12x6", "tube-6x6", "polar-5x8"}) {
         const Model model(name);
         for (int view = 0; view < static_cast<int>(viewpoints().size()); view += 3) {
-            const Scene scene = model.scene(view);
+            const FigureScene scene = model.scene(view);
             const std::vector<Face> order = painter_order(scene, model.faces);
             ASSERT_EQ(order.size(), model.faces.size());
             for (std::size_t i = 0; i < order.size(); ++i) {
@@ -95,7 +95,7 @@ TEST(Camera, ProjectsAsThePageMatrixSays)
 TEST(SeenPart, IsAllInFrontAndNothingBehind)
 {
     const Model model("ball-30");
-    const Scene scene = model.scene(0);
+    const FigureScene scene = model.scene(0);
     const std::vector<Face> order = painter_order(scene, model.faces);
     EXPECT_EQ(seen_part(scene, order.back(), model.faces), 1);
     EXPECT_LT(seen_part(scene, order.front(), model.faces), 0.05);
