@@ -177,6 +177,33 @@ void fill_sheets(const Piece& piece, const NestOptions& options, int left, Nesti
     }
 }
 
+//! Where the outline's own origin is for the search: at its middle when it was drawn away from the origin, as drawings
+//! in world coordinates are; far from the origin the search would be slow and coarse.
+Vec2 origin_for(const Polygon& polygon)
+{
+    const Box box = box_of(polygon);
+    const bool around = (box.min.array() <= 0).all() && (box.max.array() >= 0).all();
+    return around ? Vec2::Zero() : Vec2(0.5 * (box.min + box.max));
+}
+
+Polygon moved(Polygon polygon, const Vec2& by)
+{
+    for (Vec2& p : polygon) {
+        p += by;
+    }
+    return polygon;
+}
+
+//! Placements of an outline that was moved by -\p origin become those of the outline as it was.
+void give_origin_back(const Vec2& origin, Nesting& nesting)
+{
+    for (Sheet& sheet : nesting.sheets) {
+        for (Placement& p : sheet.placements) {
+            p.offset -= turn(p.angle) * (p.mirrored ? Vec2(-origin.x(), origin.y()) : origin);
+        }
+    }
+}
+
 } // namespace
 
 Vec2 placed(const Vec2& p, const Placement& placement)
@@ -186,8 +213,10 @@ Vec2 placed(const Vec2& p, const Placement& placement)
 
 Expected<Nesting> nest(const std::vector<Vec2>& outline, const NestOptions& options)
 {
-    const Polygon polygon = cleaned(outline);
-    if (auto ok = check_simple(polygon); !ok) {
+    const Polygon given = cleaned(outline);
+    const Vec2 origin = given.empty() ? Vec2::Zero() : origin_for(given);
+    const Polygon polygon = moved(given, -origin);
+    if (auto ok = check_simple(given); !ok) {
         return tl::make_unexpected(ok.error());
     }
     if (auto ok = check_options(options); !ok) {
@@ -204,6 +233,7 @@ Expected<Nesting> nest(const std::vector<Vec2>& outline, const NestOptions& opti
     }
     fill_sheets(piece, options, left, nesting);
     nesting.utilisation = utilisation_of(nesting.sheets, signed_area(polygon));
+    give_origin_back(origin, nesting);
     return nesting;
 }
 

@@ -1,6 +1,8 @@
 #include "exporters/save.h"
 
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -8,6 +10,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace rhombloom {
@@ -39,11 +42,75 @@ std::string reason(int error)
     return std::strerror(error);
 }
 
+//! Where the bytes of \p path belong: what a symbolic link points to, so that the link stays.
+fs::path behind_links(const fs::path& path)
+{
+    std::error_code error;
+    const fs::path real = fs::is_symlink(path, error) ? fs::canonical(path, error) : path;
+    return error ? path : real;
+}
+
+//! A name beside \p target that no other run and no other thread uses, however long the target's own is.
+std::string temporary_name(const fs::path& target)
+{
+    static std::atomic<unsigned> count = 0;
+    const std::string name = ".rhombloom-" + std::to_string(::getpid()) + "-" + std::to_string(++count) + ".tmp";
+    return (target.parent_path() / name).string();
+}
+
+//! While it lives, Ctrl-C and the like wait: what is being written gets whole, and no temporary file stays behind.
+class UninterruptedWriting
+{
+public:
+    UninterruptedWriting()
+    {
+        sigset_t ends;
+        sigemptyset(&ends);
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+            sigaddset(&ends, signal);
+        }
+        pthread_sigmask(SIG_BLOCK, &ends, &before_);
+    }
+    UninterruptedWriting(const UninterruptedWriting&) = delete;
+    UninterruptedWriting& operator=(const UninterruptedWriting&) = delete;
+    ~UninterruptedWriting() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+private:
+    sigset_t before_;
+};
+
+//! While it lives, other runs that write into the folder wait, so that their files do not mix with ours.
+class FolderLock
+{
+public:
+    explicit FolderLock(const fs::path& folder)
+        : folder_(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC))
+    {
+        if (folder_ >= 0) {
+            ::flock(folder_, LOCK_EX);
+        }
+    }
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+    ~FolderLock()
+    {
+        if (folder_ >= 0) {
+            ::close(folder_);
+        }
+    }
+
+private:
+    int folder_;
+};
+
 //! A file under a temporary name; it vanishes unless it is given its real name.
 class TemporaryFile
 {
 public:
-    explicit TemporaryFile(const std::string& target) : target_(target), name_(target + ".rhombloom-tmp") {}
+    explicit TemporaryFile(const fs::path& target)
+        : target_(behind_links(target).string()), name_(temporary_name(target_))
+    {
+    }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
     TemporaryFile(TemporaryFile&& other) noexcept : target_(std::move(other.target_)), name_(std::move(other.name_))
@@ -60,7 +127,8 @@ public:
 
     Expected<void> write(const std::string& bytes)
     {
-        const int file = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        ::unlink(name_.c_str()); // of a run that was killed and had the same number
+        const int file = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file < 0) {
             return failed(errno);
         }
@@ -100,6 +168,9 @@ Expected<void> make_folders(const fs::path& folder, std::vector<fs::path>& made)
     }
     std::error_code error;
     if (!fs::create_directory(folder, error)) {
+        if (path_is_folder(folder)) {
+            return {}; // another run was quicker
+        }
         const bool file_in_the_way = path_exists(folder);
         return machine_failure("cannot make the folder " + folder.string() + ": " +
                                (file_in_the_way ? "a file of that name stands there" : error.message()));
@@ -127,11 +198,12 @@ Expected<void> write_all(const fs::path& folder, const FileSet& files, std::vect
         if (path_is_folder(path)) {
             return machine_failure("cannot write " + path.string() + ": a folder of that name stands there");
         }
-        written.emplace_back(path.string());
+        written.emplace_back(path);
         if (auto ok = written.back().write(bytes); !ok) {
             return ok;
         }
     }
+    const FolderLock alone(folder);
     for (TemporaryFile& file : written) {
         if (auto ok = file.rename(); !ok) {
             return ok;
@@ -154,6 +226,7 @@ Expected<void> save_file(const std::string& path, const std::string& bytes)
         out.flush();
         return out ? Expected<void>{} : machine_failure("cannot write " + path + ": " + reason(errno));
     }
+    const UninterruptedWriting whole;
     TemporaryFile file(path);
     if (auto ok = file.write(bytes); !ok) {
         return ok;
@@ -163,6 +236,7 @@ Expected<void> save_file(const std::string& path, const std::string& bytes)
 
 Expected<void> save_folder(const std::string& folder, const FileSet& files)
 {
+    const UninterruptedWriting whole;
     std::vector<fs::path> made;
     auto ok = write_all(fs::path(folder), files, made);
     if (!ok) {

@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/usage.h"
 
 namespace {
 
@@ -33,26 +36,20 @@ int complain(const std::string& message, int exit_code)
     return exit_code;
 }
 
-bool has_command(const CLI::App& app, const std::string& name)
+//! Every command knows --version, as the program itself does.
+void add_version(CLI::App& app)
 {
-    const auto commands = app.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; });
-    return !commands.empty();
-}
-
-std::string command_names(const CLI::App& app)
-{
-    std::string names;
-    for (const CLI::App* command : app.get_subcommands({})) {
-        names += (names.empty() ? "" : ", ") + command->get_name();
+    const std::string version = "rhombloom " RHOMBLOOM_VERSION;
+    app.set_version_flag("--version", version);
+    for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+        command->set_version_flag("--version", version);
     }
-    return names;
 }
 
 int run_program(int argc, char** argv)
 {
     CLI::App app("Designs surfaces from copies of one interlocking element and makes everything needed to build them.",
                  "rhombloom");
-    app.set_version_flag("--version", "rhombloom " RHOMBLOOM_VERSION);
     app.require_subcommand(1);
     app.footer("Example: rhombloom fabricate examples/ball-30.json -o kit\n"
                "`rhombloom COMMAND --help` tells more about each command.");
@@ -61,9 +58,10 @@ int run_program(int argc, char** argv)
                            cli::add_nest, cli::add_import, cli::add_studio}) {
         add(app, run);
     }
-    if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
-        return complain("unknown command \"" + std::string(argv[1]) + "\": expected " + command_names(app),
-                        wrong_usage);
+    add_version(app);
+    const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    if (const std::string sentence = cli::unknown_name(app, arguments); !sentence.empty()) {
+        return complain(sentence, wrong_usage);
     }
     try {
         app.parse(argc, argv);
@@ -71,7 +69,7 @@ int run_program(int argc, char** argv)
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
             return app.exit(error); // --help and --version
         }
-        return complain(std::string(error.what()) + " (see rhombloom --help)", wrong_usage);
+        return complain(std::string(error.what()) + " (see " + cli::called(app, arguments) + " --help)", wrong_usage);
     }
     const auto result = run();
     if (result) {

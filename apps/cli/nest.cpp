@@ -84,9 +84,9 @@ void add_nest(CLI::App& app, Run& run)
     command->add_option("--spacing", given->options.spacing, "mm between finished edges")->capture_default_str();
     command->add_option("--margin", given->options.margin, "mm between finished edges and the sheet's edge")
         ->capture_default_str();
-    command->add_option("--grain", given->options.grain, "directions allowed: any, half-turn or fixed")
+    command->add_option("--grain", given->options.grain, "turns allowed on the sheet: any, half-turn or fixed")
         ->transform(CLI::CheckedTransformer(grains))
-        ->default_str("any");
+        ->option_text("NAME=any");
     command->add_flag("--mirror", given->mirror, "copies may be cut as mirror images");
     command->add_option("--remnant", given->remnant, "size WxH of an offcut that is filled first");
     command->callback([&run, given] { run = [given] { return run_nest(*given); }; });

@@ -97,6 +97,18 @@ for arguments, words in [([], "subcommand"), (["bogus"], "bogus"), (["fabricate"
                          (["fabricate", good, "-o", work / "out", "--paper", "a5"], "a5"),
                          (["plan", good, "--order", "worst"], "worst")]:
     expect(f"usage {arguments}", run(arguments), 2, words)
+for arguments, words in [(["fabrcate", good], "did you mean fabricate?"), (["--vresion"], "did you mean --version?"),
+                         (["fabricate", good, "-o", work / "out", "--machin", "k40"], "did you mean --machine?"),
+                         (["nest", good, "-o", work / "out", "--cuont", "4"], "did you mean --count?"),
+                         (["embed", good, "-o", work / "out", "--qqqqqq"], "rhombloom embed --help"),
+                         (["nest", good], "rhombloom nest --help")]:
+    expect(f"usage {arguments}", run(arguments), 2, words)
+for command in ["fabricate", "check", "embed", "shapes", "plan", "nest", "import", "studio"]:
+    told = run([command, "--version"]), run([command, "--help"])
+    checked += 1
+    if [t.returncode for t in told] != [0, 0] or not told[0].stdout.startswith(b"rhombloom ") or \
+            b"Example: rhombloom " + command.encode() not in told[1].stdout:
+        problems.append(f"{command} --version and --help: {told}")
 expect_nothing_in(work / "out", "wrong usage")
 
 shutil.rmtree(work)

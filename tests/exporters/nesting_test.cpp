@@ -90,6 +90,25 @@ TEST(Nesting, RefusesAnOutlineThatCrossesItself)
     EXPECT_FALSE(nest({{0, 0}, {40, 40}, {40, 0}, {0, 40}}, sheet(600, 400, 2, 1)));
 }
 
+TEST(Nesting, OutlinesFarFromTheOriginAreNestedAsNearIt)
+{
+    auto far = outlines::l_shape();
+    const Vec2 away(4.5e5, -9e5);
+    for (Vec2& p : far) {
+        p += away;
+    }
+    const NestOptions options = sheet(200, 150, 1, 5);
+    const auto here = nest(outlines::l_shape(), options), there = nest(far, options);
+    ASSERT_TRUE(here && there);
+    EXPECT_EQ(here->per_sheet, there->per_sheet);
+    for (const Placement& placement : there->sheets.front().placements) {
+        for (const Vec2& p : far) {
+            const Vec2 q = placed(p, placement);
+            EXPECT_TRUE(q.minCoeff() > -1e-6 && q.x() < 200 + 1e-6 && q.y() < 150 + 1e-6) << q.transpose();
+        }
+    }
+}
+
 TEST(Nesting, IsTheSameTwice)
 {
     const auto options = sheet(300, 200, 2, 20);

@@ -1,7 +1,9 @@
 #include "exporters/save.h"
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -63,6 +65,36 @@ TEST_F(Save, AFullDeviceIsTheMachinesFailure)
     const auto result = save_file("/dev/full", std::string(1 << 20, 'x'));
     ASSERT_FALSE(result.has_value());
     EXPECT_EQ(result.error().kind, Error::Kind::Machine);
+}
+
+TEST_F(Save, RunsThatWriteTheSameFolderAtOnceDoNotDisturbEachOther)
+{
+    std::vector<std::thread> runs;
+    std::atomic<int> failed = 0;
+    for (const char letter : {'a', 'b', 'c', 'd'}) {
+        runs.emplace_back([&, letter] {
+            const std::string bytes(5000, letter);
+            for (int i = 0; i < 5; ++i) {
+                failed += save_folder(path("kit"), {{"1", bytes}, {"cut/2", bytes}}) ? 0 : 1;
+            }
+        });
+    }
+    for (std::thread& run : runs) {
+        run.join();
+    }
+    EXPECT_EQ(failed, 0);
+    EXPECT_EQ(*load_file(path("kit/1"), 10000), *load_file(path("kit/cut/2"), 10000)); // of one and the same run
+    EXPECT_EQ(entries(), 4U);                                                          // kit, 1, cut, 2
+}
+
+TEST_F(Save, ALinkStaysAndLongNamesAreWritten)
+{
+    std::ofstream(path("real")) << "old";
+    fs::create_symlink("real", path("link"));
+    ASSERT_TRUE(save_file(path("link"), "new"));
+    EXPECT_TRUE(fs::is_symlink(path("link")));
+    EXPECT_EQ(*load_file(path("real"), 10), "new");
+    EXPECT_TRUE(save_file(path(std::string(255, 'x')), "long"));
 }
 
 TEST_F(Save, LoadingTellsMissingFoldersAndOversizedFilesApart)

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace rhombloom::cli {
+
+//! \brief The sentence about the first command or option among \p arguments (without the program's name) that \p app
+//! does not know, with the nearest one that it does know; empty when all are known.
+//! \details CLI11 itself would complain of something that is missing first, and suggests nothing.
+std::string unknown_name(const CLI::App& app, std::span<const std::string> arguments);
+
+//! \brief The one of \p known that takes the fewest insertions, deletions, replacements and swaps to become \p name;
+//! empty when none takes fewer than half of its letters.
+std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
+
+//! \brief The command among \p arguments: "rhombloom nest", or "rhombloom" when there is none.
+std::string called(const CLI::App& app, std::span<const std::string> arguments);
+
+} // namespace rhombloom::cli
