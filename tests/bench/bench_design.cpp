@@ -258,9 +258,12 @@ int bench_time(int count, const std::string& name)
         name.c_str(), share(candidates, 0.5), share(candidates, 0.95), share(candidates, 1), share(whole, 0.5),
         share(whole, 0.95));
     MergeCounts counts;
-    for (int i = 0; i < count; ++i) {
-        const Surface& brush = brushes[i % brushes.size()].surface;
-        count_pose(target.surface, overlapping(target.surface, brush, poses), brushes[i % brushes.size()].name, counts);
+    while (counts.poses < count) {
+        const BaseShape& brush = brushes[static_cast<std::size_t>(counts.poses) % brushes.size()];
+        const Surface moved = overlapping(target.surface, brush.surface, poses);
+        if (overlap(target.surface, moved, 0).any) { // a refusal of parts that do not touch takes no time
+            count_pose(target.surface, moved, brush.name, counts);
+        }
     }
     print("merge with " + name, counts);
     return 0;
