@@ -1,5 +1,8 @@
 #include "core/form/concavity_energy.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <Eigen/Geometry>
 
 #include "core/form/term_kernels.h"
@@ -12,56 +15,56 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// One triangle over the edge, in the edge's frame.
+// One triangle over the edge. With the weights w = (-(1 - s), -s, 1) of (x0, x1, apex), s being the apex's foot on the
+// edge, and the signs e = (-1, 1, 0), its turning about the edge has the derivatives
+//     gradient_k = w_k turn,
+//     hessian_kl = -(w_k w_l + share e_k e_l) (up turn' + turn up') - w_k e_l along turn' - e_k w_l turn along',
+// without the part that cancels between the two triangles of a hinge.
 struct Wing
 {
-    std::array<double, 3> weight; // d(foot-free part)/d(x0, x1, apex): -(1 - s), -s, 1 for foot parameter s
-    Vector3d across;              // unit, in the plane, from the edge to the apex
-    Vector3d normal;              // along x across
-    double height;
+    std::array<double, 3> weight;
+    Vector3d turn;   // unit normal / height
+    double share;    // height^2 / (2 length^2)
+    Matrix3d across; // up turn' + turn up', where up is the unit vector from the edge to the apex / height
+    Matrix3d along;  // along turn', where along is the unit vector of the edge / its length
 };
 
-constexpr std::array<double, 3> edge_weight = {-1, 1, 0};
+constexpr std::array<double, 3> edge_sign = {-1, 1, 0};
 
-Wing make_wing(const Vector3d& x0, const Vector3d& along, double length, const Vector3d& apex)
+Wing make_wing(const Vector3d& x0, const Vector3d& edge, const Vector3d& apex)
 {
+    const double square = edge.squaredNorm();
     const Vector3d r = apex - x0;
-    const double s = r.dot(along) / length;
-    const Vector3d up = r - s * length * along;
+    const double s = r.dot(edge) / square;
+    const Vector3d height = r - s * edge;
+    const Vector3d up = height / height.squaredNorm();
     Wing wing;
     wing.weight = {-(1 - s), -s, 1};
-    wing.height = up.norm();
-    wing.across = up / wing.height;
-    wing.normal = along.cross(wing.across);
+    wing.turn = edge.cross(up) / std::sqrt(square);
+    wing.share = height.squaredNorm() / (2 * square);
+    wing.across = up * wing.turn.transpose() + wing.turn * up.transpose();
+    wing.along = (edge / square) * wing.turn.transpose();
     return wing;
 }
 
-Vector3d wing_gradient(const Wing& wing, int k)
+Matrix3d wing_hessian(const Wing& wing, int k, int l)
 {
-    return wing.weight[k] / wing.height * wing.normal;
+    const double both = wing.weight[k] * wing.weight[l] + wing.share * edge_sign[k] * edge_sign[l];
+    return -both * wing.across - (wing.weight[k] * edge_sign[l]) * wing.along -
+           (edge_sign[k] * wing.weight[l]) * wing.along.transpose();
 }
 
-// Block (k, l) of the second derivative of the wing's rotation about the edge, without the part that cancels between
-// the two wings.
-Matrix3d wing_hessian(const Wing& wing, const Vector3d& along, double length, int k, int l)
+std::array<Wing, 2> wings(const HingePoints& p)
 {
-    const Matrix3d mn = wing.across * wing.normal.transpose();
-    const Matrix3d en = along * wing.normal.transpose();
-    const double h = wing.height;
-    return -wing.weight[k] * wing.weight[l] / (h * h) * (mn + mn.transpose()) -
-           (wing.weight[k] * edge_weight[l] * en + edge_weight[k] * wing.weight[l] * en.transpose()) / (length * h) -
-           edge_weight[k] * edge_weight[l] / (2 * length * length) * (mn + mn.transpose());
+    const Vector3d edge = p.x1 - p.x0;
+    return {make_wing(p.x0, edge, p.x2), make_wing(p.x0, edge, p.x3)};
 }
 
-void add_wing(HingeAngle& out, const Wing& wing, const Vector3d& along, double length, double sign, int apex)
+// By (x0, x1, x2, x3): the angle grows as the right wing turns, and falls as the left one does.
+std::array<Vector3d, 4> gradient_of(const std::array<Wing, 2>& w)
 {
-    const std::array<int, 3> vertex = {0, 1, apex};
-    for (int k = 0; k < 3; ++k) {
-        out.gradient.segment<3>(3 * vertex[k]) += sign * wing_gradient(wing, k);
-        for (int l = 0; l < 3; ++l) {
-            out.hessian.block<3, 3>(3 * vertex[k], 3 * vertex[l]) += sign * wing_hessian(wing, along, length, k, l);
-        }
-    }
+    return {w[1].weight[0] * w[1].turn - w[0].weight[0] * w[0].turn,
+            w[1].weight[1] * w[1].turn - w[0].weight[1] * w[0].turn, -w[0].turn, w[1].turn};
 }
 
 } // namespace
@@ -76,29 +79,45 @@ double hinge_angle(const HingePoints& p)
 
 Eigen::Matrix<double, 12, 1> hinge_angle_gradient(const HingePoints& p)
 {
-    const Vector3d edge = p.x1 - p.x0;
-    const double length = edge.norm();
-    Eigen::Matrix<double, 12, 1> gradient = Eigen::Matrix<double, 12, 1>::Zero();
-    const Wing left = make_wing(p.x0, edge / length, length, p.x2);
-    const Wing right = make_wing(p.x0, edge / length, length, p.x3);
-    for (int k = 0; k < 3; ++k) {
-        gradient.segment<3>(3 * (k < 2 ? k : 2)) -= wing_gradient(left, k);
-        gradient.segment<3>(3 * (k < 2 ? k : 3)) += wing_gradient(right, k);
+    Eigen::Matrix<double, 12, 1> gradient;
+    const std::array<Vector3d, 4> parts = gradient_of(wings(p));
+    for (int k = 0; k < 4; ++k) {
+        gradient.segment<3>(3 * k) = parts[k];
     }
     return gradient;
 }
 
+HingeBlocks hinge_hessian(const HingePoints& p, double stiffness, double moment)
+{
+    const std::array<Wing, 2> w = wings(p);
+    const std::array<Vector3d, 4> g = gradient_of(w);
+    HingeBlocks blocks;
+    for (int k = 0, n = 0; k < 4; ++k) {
+        for (int l = 0; l <= k; ++l, ++n) {
+            blocks[n] = (stiffness * g[k]) * g[l].transpose();
+            if (k < 3) {
+                blocks[n] -= moment * wing_hessian(w[0], k, l);
+            }
+            if (k != 2 && l != 2) {
+                blocks[n] += moment * wing_hessian(w[1], std::min(k, 2), std::min(l, 2));
+            }
+        }
+    }
+    return blocks;
+}
+
 HingeAngle hinge_angle_derivatives(const HingePoints& p)
 {
-    const Vector3d edge = p.x1 - p.x0;
-    const double length = edge.norm();
-    const Vector3d along = edge / length;
     HingeAngle out;
     out.angle = hinge_angle(p);
-    out.gradient.setZero();
-    out.hessian.setZero();
-    add_wing(out, make_wing(p.x0, along, length, p.x2), along, length, -1, 2);
-    add_wing(out, make_wing(p.x0, along, length, p.x3), along, length, 1, 3);
+    out.gradient = hinge_angle_gradient(p);
+    const HingeBlocks blocks = hinge_hessian(p, 0, 1);
+    for (int k = 0, n = 0; k < 4; ++k) {
+        for (int l = 0; l <= k; ++l, ++n) {
+            out.hessian.block<3, 3>(3 * l, 3 * k) = blocks[n].transpose();
+            out.hessian.block<3, 3>(3 * k, 3 * l) = blocks[n];
+        }
+    }
     return out;
 }
 

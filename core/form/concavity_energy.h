@@ -29,6 +29,12 @@ Eigen::Matrix<double, 12, 1> hinge_angle_gradient(const HingePoints& p);
 
 HingeAngle hinge_angle_derivatives(const HingePoints& p);
 
+//! \brief The blocks (k, l), k = 0..3, l = 0..k, of a Hessian by (x0, x1, x2, x3).
+using HingeBlocks = std::array<Eigen::Matrix3d, 10>;
+
+//! \brief `stiffness g g' + moment H`, where g and H are the gradient and the Hessian of hinge_angle().
+HingeBlocks hinge_hessian(const HingePoints& p, double stiffness, double moment);
+
 //! \brief What an angle costs. Dimensionless: times la gives millimetres.
 struct HingeLaw
 {

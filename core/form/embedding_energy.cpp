@@ -39,10 +39,20 @@ SpringResponse pair_response(const SpringLaw& law, const SpringPair& pair, doubl
     return sum;
 }
 
+// Convex by less than a right angle, which costs nothing? Costs little to find out.
+bool is_free(const HingeLaw& law, const HingePoints& p)
+{
+    const Vector3d left = (p.x1 - p.x0).cross(p.x2 - p.x0);
+    return law.convex_weight == 0 && left.dot(p.x3 - p.x0) <= 0 && left.dot((p.x3 - p.x0).cross(p.x1 - p.x0)) >= 0;
+}
+
 // The response with which the k-th hinge enters the Hessian.
 HingeResponse hinge_response(const HingeLaw& law, const HingePoints& points, std::size_t k,
                              const HessianOptions& options)
 {
+    if (options.hinges == nullptr && options.hinge_blur == 0 && is_free(law, points)) {
+        return {};
+    }
     const double angle = options.hinges == nullptr ? hinge_angle(points) : 0;
     HingeResponse response = options.hinges == nullptr ? hinge_response(law, angle) : (*options.hinges)[k];
     if (options.hinge_blur > 0) {
@@ -84,13 +94,10 @@ void add_hinge(const HingeResponse& response, const HingeVertices& hinge, const 
     if (response.stiffness == 0) {
         return;
     }
-    const HingeAngle angle = hinge_angle_derivatives(points);
+    const HingeBlocks terms = hinge_hessian(points, response.stiffness, response.moment);
     for (int k = 0, n = 0; k < 4; ++k) {
         for (int l = 0; l <= k; ++l, ++n) {
-            const Matrix3d block =
-                response.stiffness * angle.gradient.segment<3>(3 * k) * angle.gradient.segment<3>(3 * l).transpose() +
-                response.moment * angle.hessian.block<3, 3>(3 * k, 3 * l);
-            add_block(hessian, blocks[n], hinge[k] >= hinge[l] ? block : Matrix3d(block.transpose()));
+            add_block(hessian, blocks[n], hinge[k] >= hinge[l] ? terms[n] : Matrix3d(terms[n].transpose()));
         }
     }
 }

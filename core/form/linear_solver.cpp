@@ -27,6 +27,31 @@ struct BlockTarget
     bool diagonal;
 };
 
+// A strip of a child's update on its way to the front of its parent.
+struct Scatter
+{
+    const double* from;
+    const int* column; // offset of each column's place in a row
+    int first;         // row
+    int count;         // of rows
+
+    // Add the columns [begin, end) to the rows that begin at \p rows, as far as they are in the lower triangle.
+    void add(int begin, int end, double* const* rows) const
+    {
+        const int whole = std::min(end, first);
+        for (int j = begin; j < whole; ++j) {
+            for (int i = 0; i < count; ++i) {
+                rows[first + i][column[j]] += from[strip * j + i];
+            }
+        }
+        for (int j = std::max(begin, first); j < std::min(end, first + count); ++j) {
+            for (int i = j - first; i < count; ++i) {
+                rows[first + i][column[j]] += from[strip * j + i];
+            }
+        }
+    }
+};
+
 // A contiguous range of fronts factored in one go, with the stack of its pending updates.
 struct Task
 {
@@ -212,7 +237,7 @@ void LinearSolver::Factor::assemble_child(int f, int child, double* update_matri
     const int n = 3 * static_cast<int>(rows.size());
     std::vector<double*> in_panel(n);
     std::vector<double*> in_update(n);
-    std::vector<int> column(n);
+    std::vector<int> column(n); // offset of what begins a column
     int pivot_columns = 0;
     std::size_t k = 0;
     for (int b = 0; b < static_cast<int>(rows.size()); ++b) {
@@ -222,26 +247,20 @@ void LinearSolver::Factor::assemble_child(int f, int child, double* update_matri
         }
         for (int i = 0; i < 3; ++i) {
             const int r = 3 * b + i;
-            column[r] = pivot ? 3 * (rows[b] - front.first) + i : 3 * static_cast<int>(k) + i;
-            const int local = pivot ? column[r] : strip * shapes[f].diagonal_strips + column[r];
-            in_panel[r] = panels.data() + panel_offset[f] + panel_row(shapes[f], local);
-            in_update[r] = pivot ? nullptr : update_matrix + update_row(column[r]);
+            const int local = pivot ? 3 * (rows[b] - front.first) + i : 3 * static_cast<int>(k) + i;
+            const int row = pivot ? local : strip * shapes[f].diagonal_strips + local;
+            column[r] = strip * local;
+            in_panel[r] = panels.data() + panel_offset[f] + panel_row(shapes[f], row);
+            in_update[r] = pivot ? nullptr : update_matrix + update_row(local);
             pivot_columns += pivot;
         }
     }
     const double* source = update[child];
     for (int s = 0; strip * s < n; ++s) {
-        const int end = std::min(strip * (s + 1), n);
-        for (int r = strip * s; r < end; ++r) {
-            const double* from = source + update_row(r);
-            const int last_pivot = std::min(pivot_columns, r + 1);
-            for (int j = 0; j < last_pivot; ++j) {
-                in_panel[r][strip * column[j]] += from[strip * j];
-            }
-            for (int j = pivot_columns; j <= r; ++j) {
-                in_update[r][strip * column[j]] += from[strip * j];
-            }
-        }
+        const double* from = source + update_row(strip * s);
+        const Scatter scatter{from, column.data(), strip * s, std::min(strip, n - strip * s)};
+        scatter.add(0, std::min(pivot_columns, n), in_panel.data());
+        scatter.add(pivot_columns, n, in_update.data());
     }
 }
 

@@ -115,7 +115,7 @@ Candidate descend(const EmbeddingTerms& terms, const VectorXd& x, const Minimise
     };
     go_on(local_newton);
     if (candidate.result.reason == StopReason::Stalled && candidate.result.iterations > 0) {
-        go_on(newton); // after a local edit, no far way is left
+        go_on(minimise);
     }
     if (candidate.result.reason == StopReason::Stalled) {
         go_on(minimise);
@@ -153,14 +153,19 @@ bool has_collapsed(const EmbeddingTerms& terms, const VectorXd& x)
            });
 }
 
-// Where a guard bears load, look for an equilibrium of the energy without it.
+// Where a guard bears load, look for an equilibrium of the energy without it: first among the vertices near it, so that
+// elements that collapse do so at little cost.
 bool stands_without_guards(EmbeddingTerms& terms, Candidate& candidate, const MinimiseOptions& options)
 {
     EmbeddingTerms pure = terms;
     remove_guards(pure);
     Candidate without{iterate_at(pure, candidate.iterate.x), {}};
-    without.result = newton(pure, without.iterate, options);
+    without.result = local_newton(pure, without.iterate, options);
     candidate.result.iterations += without.result.iterations;
+    if (without.result.reason == StopReason::Stalled && !has_collapsed(pure, without.iterate.x)) {
+        without.result = newton(pure, without.iterate, options);
+        candidate.result.iterations += without.result.iterations;
+    }
     if (without.result.reason != StopReason::Converged || has_collapsed(pure, without.iterate.x)) {
         return false;
     }
