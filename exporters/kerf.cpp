@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/text.h"
+#include "exporters/kerf_fitted.h"
 #include "exporters/kerf_offset.h"
 #include "exporters/short_segments.h"
 
@@ -220,6 +221,30 @@ Expected<Chain> only_loop(const std::vector<Chain>& loops, double sense)
     }
     return *only;
 }
+
+Expected<Chain> exact_loop(const Chain& contour, const Tool& tool, double sense)
+{
+    const auto loops = offset_loops(contour, tool);
+    return loops ? only_loop(*loops, sense) : Expected<Chain>(tl::make_unexpected(loops.error()));
+}
+
+//! For tools much longer than wide: the loop within #kerf_tolerance, corners cut off where that saves short segments.
+Expected<Chain> fitted_loop(const Chain& contour, const Tool& tool, double sense)
+{
+    Expected<Chain> loop;
+    for (const ShortSegments how : {ShortSegments::Kept, ShortSegments::Bridged}) {
+        std::vector<Chain> loops;
+        for (const auto& points : dense_offset(contour, tool)) {
+            loops.push_back(fitted_segments(points, kerf_tolerance, how));
+        }
+        loop = only_loop(loops, sense);
+        if (!loop || is_simple(closed_path(merged_short_segments(*loop)))) {
+            return loop;
+        }
+    }
+    return refuse("kerf: the contour cannot be moved by a cut so much wider one way than the other; make the kerfs "
+                  "more alike");
+}
 //! \}
 
 } // namespace
@@ -236,11 +261,12 @@ Expected<ToolPath> tool_path(const Path& contour, const Kerf& kerf)
     if (!slits) {
         return tl::make_unexpected(slits.error());
     }
-    const auto loops = offset_loops(without_slits(nominal, *slits), tool);
-    if (!loops) {
-        return tl::make_unexpected(loops.error());
+    const double sense = signed_area(nominal);
+    const Chain bridged = without_slits(nominal, *slits);
+    auto loop = exact_loop(bridged, tool, sense);
+    if (!is_round(tool) && (!loop || !is_simple(closed_path(merged_short_segments(*loop))))) {
+        loop = fitted_loop(bridged, tool, sense);
     }
-    const auto loop = only_loop(*loops, signed_area(nominal));
     if (!loop) {
         return tl::make_unexpected(loop.error());
     }

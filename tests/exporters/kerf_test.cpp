@@ -263,6 +263,30 @@ TEST(Kerf, DifferentWidthsCutLikeAnEllipse)
     }
 }
 
+TEST(Kerf, CutsMuchWiderOneWayThanTheOtherStaySimple)
+{
+    struct Case
+    {
+        double la, lb, alpha_deg, thickness, angle;
+        Kerf kerf;
+    };
+    const Case cases[] = {{96.91, 104.56, 66.247, 0.5, 0, {0.05, 0.3}},
+                          {56.49, 63.51, 55.636, 0.26, 0.4, {0, 0.4}},
+                          {194.84, 238.13, 70.079, 0.8, 0, {0.006, 0.086}},
+                          {85.54, 94.11, 70.06, 0.21, 0.4, {0.02, 0.4}},
+                          {104.95, 117.52, 65.443, 0.5, 0, {0.1, 0.02}}};
+    for (const Case& c : cases) {
+        const Element element{.la = c.la, .lb = c.lb, .alpha = radians(c.alpha_deg), .thickness = c.thickness};
+        const Path outline = placed(*element_outline(hook_parameters(element)), c.angle, Vec2::Zero());
+        const auto result = tool_path(outline, c.kerf);
+        ASSERT_TRUE(result) << c.la << ": " << result.error().message;
+        EXPECT_TRUE(is_simple(result->contour)) << c.la;
+        EXPECT_GE(shortest(result->contour), shortest_segment - 1e-9) << c.la;
+        const Kerf least{std::max(c.kerf.x, 0.001), c.kerf.y};
+        EXPECT_LT(deviation_from_scaled_clipper(outline, result->contour, least), 0.06) << c.la;
+    }
+}
+
 TEST(Kerf, AnEllipticCutOfASquareHasTheAreaOfItsMinkowskiSum)
 {
     const auto result = tool_path(polygon({{0, 0}, {10, 0}, {10, 10}, {0, 10}}), {0.4, 0.2});
