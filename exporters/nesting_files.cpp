@@ -179,7 +179,7 @@ std::string summary(const Nesting& nesting, const NestOptions& options)
     const Vec2 left = (last.offcut.max - last.offcut.min).cwiseMax(0.0);
     const bool with_remnant = nesting.sheets.front().remnant;
     const std::size_t whole = nesting.sheets.size() - (with_remnant ? 1 : 0);
-    std::string text = std::to_string(options.count) + " copies on ";
+    std::string text = std::to_string(options.count) + (options.count == 1 ? " copy on " : " copies on ");
     if (with_remnant) {
         text += "the remnant (" + std::to_string(nesting.sheets.front().placements.size()) + " copies) and ";
     }

@@ -9,7 +9,7 @@
 //! Inside of the outline reader: one function per format, which hands back what is drawn, piece by piece.
 namespace rhombloom::reading {
 
-inline constexpr double join_tolerance = 0.01;   //!< mm between ends that belong together
+inline constexpr double join_tolerance = 0.05;   //!< mm between ends that belong together
 inline constexpr double curve_tolerance = 0.002; //!< mm between other curves and their chords
 inline constexpr std::size_t most_points = 200000;
 

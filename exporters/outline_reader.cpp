@@ -1,8 +1,10 @@
 #include "exporters/outline_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -41,34 +43,49 @@ Vec2 last_of(const Path& path)
     return path.vertices.back().point;
 }
 
-//! Moves the loose path whose end is nearest to \p chain's end behind it.
-bool extend(Path& chain, std::vector<Path>& loose)
+//! The loose path with the end nearest to \p chain's end, and how far it is.
+struct Mate
 {
-    std::size_t nearest = loose.size();
-    double least = join_tolerance;
+    std::size_t index = 0;
+    double gap = 1e300;
     bool backwards = false;
+};
+
+Mate mate_of(const Path& chain, const std::vector<Path>& loose)
+{
+    Mate mate;
     for (std::size_t i = 0; i < loose.size(); ++i) {
         const double front = (first_of(loose[i]) - last_of(chain)).norm();
         const double back = (last_of(loose[i]) - last_of(chain)).norm();
-        if (std::min(front, back) <= least) {
-            least = std::min(front, back);
-            nearest = i;
-            backwards = back < front;
+        if (std::min(front, back) < mate.gap) {
+            mate = {i, std::min(front, back), back < front};
         }
     }
-    if (nearest == loose.size()) {
+    return mate;
+}
+
+double closing_gap(const Path& chain)
+{
+    return chain.vertices.size() < 3 ? 1e300 : (last_of(chain) - first_of(chain)).norm();
+}
+
+//! Moves the loose path whose end is nearest to \p chain's end behind it, if it is nearer than the chain's own start.
+bool extend(Path& chain, std::vector<Path>& loose)
+{
+    const Mate mate = mate_of(chain, loose);
+    if (mate.gap > join_tolerance || mate.gap > closing_gap(chain)) {
         return false;
     }
-    const Path next = backwards ? reversed(loose[nearest]) : loose[nearest];
+    const Path next = mate.backwards ? reversed(loose[mate.index]) : loose[mate.index];
     chain.vertices.back().bulge = next.vertices.front().bulge;
     chain.vertices.insert(chain.vertices.end(), next.vertices.begin() + 1, next.vertices.end());
-    loose.erase(loose.begin() + static_cast<std::ptrdiff_t>(nearest));
+    loose.erase(loose.begin() + static_cast<std::ptrdiff_t>(mate.index));
     return true;
 }
 
 bool close_up(Path& chain)
 {
-    if (chain.vertices.size() < 3 || (last_of(chain) - first_of(chain)).norm() > join_tolerance) {
+    if (closing_gap(chain) > join_tolerance) {
         return false;
     }
     chain.vertices.pop_back();
@@ -91,6 +108,55 @@ void drop_repeats(Path& path)
         kept.pop_back();
     }
     path.vertices = std::move(kept);
+}
+
+//! The sentence about the smallest of the gaps at a chain's ends.
+tl::unexpected<Error> not_closed(const Path& chain, const std::vector<Path>& loose)
+{
+    Vec2 from = last_of(chain), to = first_of(chain);
+    for (const Path& end : {chain, reversed(chain)}) {
+        const Mate mate = mate_of(end, loose);
+        if (mate.gap < (to - from).norm()) {
+            from = last_of(end);
+            to = mate.backwards ? last_of(loose[mate.index]) : first_of(loose[mate.index]);
+        }
+    }
+    return refuse("the outline is not closed: a gap of " + to_fixed((to - from).norm(), 3) + " mm between " +
+                  text_of(from) + " and " + text_of(to) + "; join the ends in the drawing");
+}
+
+//! Drops contours that are drawn twice in the same place, once filled and once stroked, say.
+void drop_copies(std::vector<Path>& contours)
+{
+    const auto same = [](const Path& a, const Path& b) {
+        return std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(),
+                          [](const PathVertex& v, const PathVertex& w) {
+                              return (v.point - w.point).norm() < 1e-6 && std::abs(v.bulge - w.bulge) < 1e-6;
+                          });
+    };
+    for (std::size_t i = 0; i < contours.size(); ++i) {
+        contours.erase(std::remove_if(contours.begin() + static_cast<std::ptrdiff_t>(i) + 1, contours.end(),
+                                      [&](const Path& other) { return same(contours[i], other); }),
+                       contours.end());
+    }
+}
+
+//! The same for loose pieces, whichever way they run.
+void drop_loose_copies(std::vector<Path>& loose)
+{
+    const auto key = [](const Path& path) {
+        const auto grid = [](double value) { return std::round(value * 1e6); };
+        const Vec2 a = first_of(path), b = last_of(path);
+        return std::array<double, 6>{grid(a.x()),
+                                     grid(a.y()),
+                                     grid(b.x()),
+                                     grid(b.y()),
+                                     grid(path.vertices.front().bulge),
+                                     static_cast<double>(path.vertices.size())};
+    };
+    std::set<std::array<double, 6>> seen;
+    std::erase_if(loose,
+                  [&](const Path& path) { return !seen.insert(std::min(key(path), key(reversed(path)))).second; });
 }
 
 Expected<void> check_points(const std::vector<Path>& paths)
@@ -167,18 +233,24 @@ Expected<Path> joined(std::vector<Path> paths)
         }
         (path.closed || close_up(path) ? contours : loose).push_back(std::move(path));
     }
+    drop_loose_copies(loose);
     while (!loose.empty()) {
         Path chain = loose.back();
         loose.pop_back();
-        while (!close_up(chain) && extend(chain, loose)) {
+        for (int side = 0; side < 2; ++side) {
+            while (extend(chain, loose)) {
+            }
+            if (close_up(chain)) {
+                break;
+            }
+            chain = reversed(chain); // it may have begun in the middle
         }
         if (!chain.closed) {
-            return refuse("the outline is not closed: a gap of " +
-                          to_fixed((last_of(chain) - first_of(chain)).norm(), 3) + " mm between " +
-                          text_of(last_of(chain)) + " and " + text_of(first_of(chain)));
+            return not_closed(chain, loose);
         }
         contours.push_back(std::move(chain));
     }
+    drop_copies(contours);
     if (contours.empty()) {
         return refuse("the file draws no outline");
     }

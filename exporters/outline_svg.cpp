@@ -1,131 +1,20 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <set>
 #include <string_view>
 
 #include <pugixml.hpp>
 
-#include "core/units.h"
 #include "exporters/outline_pieces.h"
-#include "exporters/outline_svg_path.h"
+#include "exporters/outline_svg_style.h"
 
 namespace rhombloom::reading {
 
 namespace {
 
-constexpr double mm_per_px = 25.4 / 96;
 constexpr int deepest = 200;
-
-//! "600mm" in mm; plain numbers are CSS pixels. Nothing for percentages and nonsense.
-std::optional<double> length_in_mm(std::string_view text)
-{
-    static const std::map<std::string_view, double> units = {{"", mm_per_px},  {"px", mm_per_px}, {"mm", 1},
-                                                             {"cm", 10},       {"in", 25.4},      {"pt", 25.4 / 72},
-                                                             {"pc", 25.4 / 6}, {"Q", 0.25}};
-    const auto end = text.find_last_of("0123456789.");
-    if (end == std::string_view::npos) {
-        return {};
-    }
-    const auto number = svg_numbers(text.substr(0, end + 1));
-    const auto unit = units.find(text.substr(end + 1));
-    if (!number || number->size() != 1 || unit == units.end() || number->front() <= 0) {
-        return {};
-    }
-    return number->front() * unit->second;
-}
-
-//! User units to mm with y up.
-Expected<Affine> page(const pugi::xml_node& svg)
-{
-    const auto width = length_in_mm(svg.attribute("width").value());
-    const auto height = length_in_mm(svg.attribute("height").value());
-    const pugi::xml_attribute box = svg.attribute("viewBox");
-    if (!box) {
-        return Affine{mm_per_px, 0, 0, -mm_per_px, 0, height.value_or(0)};
-    }
-    const auto b = svg_numbers(box.value());
-    if (!b || b->size() != 4 || !((*b)[2] > 0) || !((*b)[3] > 0)) {
-        return refuse("the viewBox \"" + std::string(box.value()) + "\" should be four numbers, the last two above 0");
-    }
-    const double sx = width ? *width / (*b)[2] : height ? *height / (*b)[3] : mm_per_px;
-    const double sy = height ? *height / (*b)[3] : sx;
-    if (std::abs(sx - sy) > 1e-4 * sx) {
-        return refuse("width, height and viewBox stretch the drawing unevenly; make their ratios equal");
-    }
-    return Affine{sx, 0, 0, -sx, -sx * (*b)[0], sx * ((*b)[1] + (*b)[3])};
-}
-
-Affine rotation(const std::vector<double>& n)
-{
-    const double a = radians(n[0]);
-    const Affine turn{std::cos(a), std::sin(a), -std::sin(a), std::cos(a), 0, 0};
-    return n.size() < 3 ? turn : Affine{1, 0, 0, 1, n[1], n[2]} * turn * Affine{1, 0, 0, 1, -n[1], -n[2]};
-}
-
-std::optional<Affine> one_transform(std::string_view name, const std::vector<double>& n)
-{
-    const std::size_t k = n.size();
-    if (name == "matrix" && k == 6) {
-        return Affine{n[0], n[1], n[2], n[3], n[4], n[5]};
-    }
-    if (name == "translate" && (k == 1 || k == 2)) {
-        return Affine{1, 0, 0, 1, n[0], k == 2 ? n[1] : 0};
-    }
-    if (name == "scale" && (k == 1 || k == 2)) {
-        return Affine{n[0], 0, 0, n[k - 1], 0, 0};
-    }
-    if (name == "rotate" && (k == 1 || k == 3)) {
-        return rotation(n);
-    }
-    if ((name == "skewX" || name == "skewY") && k == 1) {
-        const double t = std::tan(radians(n[0]));
-        return name == "skewX" ? Affine{1, 0, t, 1, 0, 0} : Affine{1, t, 0, 1, 0, 0};
-    }
-    return {};
-}
-
-Expected<Affine> transform(std::string_view text)
-{
-    Affine result;
-    while (true) {
-        const auto start = text.find_first_not_of(" \t\r\n,");
-        if (start == std::string_view::npos) {
-            return result;
-        }
-        const auto open = text.find('(', start), close = text.find(')', start);
-        if (open == std::string_view::npos || close == std::string_view::npos || close < open) {
-            return refuse("the transform \"" + std::string(text.substr(0, 60)) + "\" is malformed");
-        }
-        std::string_view name = text.substr(start, open - start);
-        name = name.substr(0, name.find_last_not_of(" \t\r\n") + 1);
-        const auto numbers = svg_numbers(text.substr(open + 1, close - open - 1));
-        const auto one = numbers ? one_transform(name, *numbers) : std::nullopt;
-        if (!one) {
-            return refuse("the transform \"" + std::string(text.substr(start, close - start + 1)) + "\" is malformed");
-        }
-        result = result * *one;
-        text.remove_prefix(close + 1);
-    }
-}
-
-//! A number of an attribute in user units; an absent one is 0.
-Expected<double> user_length(const pugi::xml_node& node, const char* name)
-{
-    const pugi::xml_attribute attribute = node.attribute(name);
-    if (!attribute) {
-        return 0.0;
-    }
-    std::string_view text = attribute.value();
-    if (text.ends_with("px")) {
-        text.remove_suffix(2);
-    }
-    const auto numbers = svg_numbers(text);
-    if (!numbers || numbers->size() != 1) {
-        return refuse(std::string(node.name()) + " has " + name + "=\"" + attribute.value() + "\"; expected a number");
-    }
-    return numbers->front();
-}
+constexpr int most_nodes = 200000; // drawn, those of clones counted each time
 
 //! The shape as path data, so that one interpreter draws all of them.
 struct Shape
@@ -151,13 +40,22 @@ struct Shape
     {
         const auto n = svg_numbers(node.attribute("points").value());
         if (!n || n->size() % 2 != 0) {
-            return refuse(std::string(node.name()) + " has malformed points; expected pairs of numbers");
+            return refuse(std::string(name_of(node)) + " has malformed points; expected pairs of numbers");
         }
         Path path{{}, closed, {}};
         for (std::size_t i = 0; i + 1 < n->size(); i += 2) {
             path.vertices.push_back({pen.to_mm * Vec2((*n)[i], (*n)[i + 1]), 0});
         }
         return std::vector<Path>{path};
+    }
+
+    //! What has no size is not drawn; a negative one is an error.
+    Expected<std::vector<Path>> drawn_only_if(bool no_error) const
+    {
+        if (!no_error) {
+            return refuse("a <" + std::string(name_of(node)) + "> has a negative size");
+        }
+        return std::vector<Path>{};
     }
 
     Expected<std::vector<Path>> rectangle() const
@@ -167,6 +65,9 @@ struct Shape
             return tl::make_unexpected(v.error());
         }
         const auto [x, y, w, h, rx0, ry0] = *v;
+        if (!(w > 0 && h > 0)) {
+            return drawn_only_if(w >= 0 && h >= 0);
+        }
         const double rx = std::min(rx0 > 0 ? rx0 : ry0, w / 2), ry = std::min(ry0 > 0 ? ry0 : rx0, h / 2);
         const SvgArc corner{rx, ry, 0, false, true};
         const std::array<Vec2, 8> p = {Vec2(x + rx, y),         Vec2(x + w - rx, y),     Vec2(x + w, y + ry),
@@ -182,12 +83,15 @@ struct Shape
 
     Expected<std::vector<Path>> round() const
     {
-        const bool circle = std::string_view(node.name()) == "circle";
+        const bool circle = name_of(node) == "circle";
         const auto v = lengths<4>({"cx", "cy", circle ? "r" : "rx", circle ? "r" : "ry"});
         if (!v) {
             return tl::make_unexpected(v.error());
         }
         const auto [cx, cy, rx, ry] = *v;
+        if (!(rx > 0 && ry > 0)) {
+            return drawn_only_if(rx >= 0 && ry >= 0);
+        }
         const Vec2 right(cx + rx, cy), left(cx - rx, cy);
         Path path{{{pen.to_mm * right, 0}}, true, {}};
         add_svg_arc(path, right, left, {rx, ry, 0, false, true}, pen);
@@ -205,7 +109,7 @@ struct Shape
 
     Expected<std::vector<Path>> paths() const
     {
-        const std::string_view name = node.name();
+        const std::string_view name = name_of(node);
         if (name == "path") {
             return svg_path(node.attribute("d").value(), pen);
         }
@@ -222,51 +126,139 @@ struct Shape
     }
 };
 
-bool is_hidden(const pugi::xml_node& node)
-{
-    const std::string_view style = node.attribute("style").value();
-    return std::string_view(node.attribute("display").value()) == "none" ||
-           style.find("display:none") != std::string_view::npos ||
-           style.find("display: none") != std::string_view::npos;
-}
-
 bool is_group(std::string_view name)
 {
     return name == "g" || name == "svg" || name == "a" || name == "switch";
 }
 
-Expected<void> collect(const pugi::xml_node& parent, const Affine& to_mm, int depth, Pieces& pieces)
+//! Walks the drawing, clones included.
+class Collector
+{
+public:
+    explicit Collector(const pugi::xml_node& svg) : hidden_(hidden_classes(svg))
+    {
+        for_each_node(svg, [&](const pugi::xml_node& node) {
+            if (const pugi::xml_attribute id = node.attribute("id")) {
+                named_.emplace(id.value(), node);
+            }
+        });
+    }
+
+    Expected<void> children(const pugi::xml_node& parent, const Affine& to_mm, int depth);
+    Pieces pieces;
+
+private:
+    Expected<void> node(const pugi::xml_node& node, const Affine& to_mm, int depth);
+    Expected<void> clone(const pugi::xml_node& use, const Affine& to_mm, int depth);
+    Expected<void> nested(const pugi::xml_node& node, const pugi::xml_node& sized, const Affine& to_mm, int depth);
+
+    std::set<std::string> hidden_;
+    std::map<std::string, pugi::xml_node> named_;
+    int nodes_ = 0;
+};
+
+Expected<void> Collector::children(const pugi::xml_node& parent, const Affine& to_mm, int depth)
 {
     if (depth > deepest) {
-        return refuse("groups are nested more than " + std::to_string(deepest) + " deep");
+        return refuse("groups or clones are nested more than " + std::to_string(deepest) + " deep");
     }
-    for (const pugi::xml_node& node : parent.children()) {
-        const std::string_view name = node.name();
-        if (is_hidden(node)) {
-            continue;
+    for (const pugi::xml_node& child : parent.children()) {
+        if (++nodes_ > most_nodes) {
+            return refuse("the SVG draws more than " + std::to_string(most_nodes) + " objects");
         }
-        if (name == "use") {
-            return refuse("the SVG draws a clone (<use>); unlink it first");
+        if (auto ok = is_hidden(child, hidden_) ? Expected<void>{} : node(child, to_mm, depth); !ok) {
+            return ok;
         }
-        const auto own = transform(node.attribute("transform").value());
-        if (!own) {
-            return tl::make_unexpected(own.error());
-        }
-        Pen pen{to_mm * *own};
-        if (is_group(name)) {
-            if (auto ok = collect(node, pen.to_mm, depth + 1, pieces); !ok) {
-                return ok;
-            }
-            continue;
-        }
-        auto paths = Shape{node, pen}.paths();
-        if (!paths) {
-            return tl::make_unexpected(paths.error());
-        }
-        pieces.paths.insert(pieces.paths.end(), paths->begin(), paths->end());
-        pieces.curves |= pen.curves;
     }
     return {};
+}
+
+Expected<void> Collector::node(const pugi::xml_node& node, const Affine& to_mm, int depth)
+{
+    const std::string_view name = name_of(node);
+    const auto own = transform_of(node);
+    if (!own) {
+        return tl::make_unexpected(own.error());
+    }
+    Pen pen{to_mm * *own};
+    if (name == "svg") {
+        return nested(node, node, pen.to_mm, depth);
+    }
+    if (is_group(name)) {
+        return children(node, pen.to_mm, depth + 1);
+    }
+    if (name == "use") {
+        return clone(node, pen.to_mm, depth);
+    }
+    auto paths = Shape{node, pen}.paths();
+    if (!paths) {
+        return tl::make_unexpected(paths.error());
+    }
+    pieces.paths.insert(pieces.paths.end(), paths->begin(), paths->end());
+    pieces.curves |= pen.curves;
+    return {};
+}
+
+//! An inner <svg>, or the <symbol> of a clone, which has its size from the clone.
+Expected<void> Collector::nested(const pugi::xml_node& node, const pugi::xml_node& sized, const Affine& to_mm,
+                                 int depth)
+{
+    const auto x = user_length(sized, "x"), y = user_length(sized, "y");
+    const auto width = css_length(sized.attribute("width").value()),
+               height = css_length(sized.attribute("height").value());
+    if (!x || !y) {
+        return tl::make_unexpected((x ? y : x).error());
+    }
+    if (node.attribute("viewBox") && !(width && height && *width > 0 && *height > 0)) {
+        return refuse("an inner <" + std::string(name_of(node)) +
+                      "> has a viewBox but no size in units; give it width and height, or ungroup it");
+    }
+    const auto inside = viewport(node, width, height);
+    if (!inside) {
+        return tl::make_unexpected(inside.error());
+    }
+    return children(node, to_mm * Affine{1, 0, 0, 1, *x, *y} * *inside, depth + 1);
+}
+
+Expected<void> Collector::clone(const pugi::xml_node& use, const Affine& to_mm, int depth)
+{
+    const pugi::xml_attribute plain = use.attribute("href");
+    const std::string link = plain ? plain.value() : use.attribute("xlink:href").value();
+    const auto found = link.starts_with('#') ? named_.find(link.substr(1)) : named_.end();
+    const pugi::xml_node drawn = found == named_.end() ? pugi::xml_node{} : found->second;
+    if (!drawn || depth > deepest || ++nodes_ > most_nodes) {
+        return refuse("the clone (<use>) of \"" + link.substr(0, 60) +
+                      "\" cannot be drawn: " + (drawn ? "it draws itself" : "the drawing holds nothing of that name"));
+    }
+    if (name_of(drawn) == "symbol") {
+        return nested(drawn, use, to_mm, depth + 1);
+    }
+    const auto x = user_length(use, "x"), y = user_length(use, "y");
+    if (!x || !y) {
+        return tl::make_unexpected((x ? y : x).error());
+    }
+    return is_hidden(drawn, hidden_) ? Expected<void>{} : node(drawn, to_mm * Affine{1, 0, 0, 1, *x, *y}, depth + 1);
+}
+
+//! User units to mm with y up.
+Expected<Affine> page(const pugi::xml_node& svg)
+{
+    const auto size = [&](const char* name) -> Expected<std::optional<double>> {
+        const std::string_view text = svg.attribute(name).value();
+        const auto length = css_length(text);
+        if (text.empty() || text.ends_with('%') || text == "auto" || (length && *length > 0)) {
+            return length;
+        }
+        return refuse("the SVG's " + std::string(name) + " is \"" + std::string(text) +
+                      "\"; expected a length above 0 in mm, cm, in, px, pt or pc");
+    };
+    const auto width = size("width"), height = size("height");
+    if (!width || !height) {
+        return tl::make_unexpected((width ? height : width).error());
+    }
+    return viewport(svg, *width, *height).map([&](const Affine& to_px) {
+        return Affine{mm_per_px, 0, 0, -mm_per_px, 0, mm_per_px * height->value_or(0)} * to_px;
+    });
 }
 
 } // namespace
@@ -278,19 +270,19 @@ Expected<Pieces> svg_pieces(const std::string& bytes)
     if (!parsed) {
         return refuse("this is not valid XML near byte " + std::to_string(parsed.offset) + ": " + parsed.description());
     }
-    const pugi::xml_node svg = document.child("svg");
-    if (!svg) {
+    const pugi::xml_node svg = document.document_element();
+    if (name_of(svg) != "svg") {
         return refuse("this is not an SVG: its root element is not <svg>");
     }
     const auto to_mm = page(svg);
     if (!to_mm) {
         return tl::make_unexpected(to_mm.error());
     }
-    Pieces pieces;
-    if (auto ok = collect(svg, *to_mm, 0, pieces); !ok) {
+    Collector collector(svg);
+    if (auto ok = collector.children(svg, *to_mm, 0); !ok) {
         return tl::make_unexpected(ok.error());
     }
-    return pieces;
+    return std::move(collector.pieces);
 }
 
 } // namespace rhombloom::reading

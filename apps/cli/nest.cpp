@@ -3,6 +3,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/console.h"
+#include "core/text.h"
 #include "exporters/machines.h"
 #include "exporters/nesting_files.h"
 #include "exporters/save.h"
@@ -63,7 +64,11 @@ Expected<int> run_nest(const NestCommand& command)
     if (auto ok = save_folder(command.output, nesting_files(*outline, *options, *nesting)); !ok) {
         return tl::make_unexpected(ok.error());
     }
-    return print(summary(*nesting, *options) + "; wrote " + command.output + "\n").map([] { return 0; });
+    // Its size first: a wrong unit shows there.
+    const Box box = bounds(outline->path);
+    const std::string size = "outline of " + to_fixed(box.max.x() - box.min.x(), 2) + " x " +
+                             to_fixed(box.max.y() - box.min.y(), 2) + " mm: ";
+    return print(size + summary(*nesting, *options) + "; wrote " + command.output + "\n").map([] { return 0; });
 }
 
 } // namespace
