@@ -206,11 +206,11 @@ std::string readme_text(const Summary& s, const FileSet& files)
     if (s.options.parts.contains(KitPart::Cut)) {
         text += "What it takes\n" + amounts(s) + "\nWhat to do first\n" + first_steps(s) + "\n";
     }
-    text += "If it becomes a lamp\n" + wrapped("LED bulbs only, 8 W or less, at least 20 mm from the "
-                                               "elements. The cord "
-                                               "carries the lamp, not the shade. " +
-                                                   s.piece.material.heat,
-                                               "  ");
+    text += "If it becomes a lamp\n" +
+            wrapped("LED bulbs only, 8 W or less, at least 30 mm from the elements. The cord carries the "
+                    "lamp, not the shade. " +
+                        s.piece.material.heat,
+                    "  ");
     for (const std::string& warning : s.warnings) {
         text += "\nMind this\n" + wrapped(warning, "  ");
     }
