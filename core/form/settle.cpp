@@ -77,8 +77,14 @@ VectorXd unfolded(const EmbeddingTerms& terms, const VectorXd& x, const Minimise
     return iterate.x;
 }
 
-constexpr int all_repairs = 5;
+constexpr int first_repairs = 5;   // then layouts
 constexpr int few_iterations = 25; // for the guards to go after an edit
+
+// As many layouts as take about a tenth of a second.
+int layouts(const EmbeddingTerms& terms)
+{
+    return static_cast<int>(std::min(8.0, 2e5 / (double(terms.vertex_count) * terms.vertex_count)));
+}
 
 // The k-th repair, of the positions at the start or of the best result so far; false when it does not apply.
 bool repair(const EmbeddingTerms& terms, const VectorXd& start, const VectorXd& best, int k,
@@ -97,8 +103,11 @@ bool repair(const EmbeddingTerms& terms, const VectorXd& start, const VectorXd& 
     case 3:
         smooth(terms, x, 12);
         break;
-    default:
+    case 4:
         x = unfolded(terms, usable(terms, spectral_layout(terms)), options);
+        return true;
+    default:
+        x = distance_layout(terms, k - first_repairs);
         return true;
     }
     x = usable(terms, x);
@@ -114,9 +123,6 @@ Candidate descend(const EmbeddingTerms& terms, const VectorXd& x, const Minimise
         candidate.result.iterations += before;
     };
     go_on(local_newton);
-    if (candidate.result.reason == StopReason::Stalled && candidate.result.iterations > 0) {
-        go_on(minimise);
-    }
     if (candidate.result.reason == StopReason::Stalled) {
         go_on(minimise);
     }
@@ -174,6 +180,37 @@ bool stands_without_guards(EmbeddingTerms& terms, Candidate& candidate, const Mi
     return true;
 }
 
+// Does the shape need a guard to be in equilibrium? If not, there is none when this returns.
+bool needs_guards(EmbeddingTerms& terms, Candidate& candidate, const MinimiseOptions& options)
+{
+    return embedding_energy(terms, candidate.iterate.x).guard > 0 &&
+           (candidate.result.reason != StopReason::Converged || !stands_without_guards(terms, candidate, options));
+}
+
+bool has_boundary(const EmbeddingTerms& terms)
+{
+    return std::any_of(terms.springs.begin(), terms.springs.begin() + terms.edge_count,
+                       [](const SpringPair& pair) { return pair.count == 1; });
+}
+
+// A sheet bends along one diagonal or the other, to either side, and one way so far that it folds. The unfolded sheet
+// and its mirror image bend different ways.
+bool unroll(const EmbeddingTerms& terms, Candidate& best, const MinimiseOptions& options)
+{
+    VectorXd x = unfolded(terms, best.iterate.x, options);
+    for (int side = 0; side < 2; ++side) {
+        Candidate other = attempt(terms, x, options);
+        best.result.iterations += other.result.iterations;
+        if (is_good(terms, other) && embedding_energy(terms, other.iterate.x).guard == 0) {
+            other.result.iterations = best.result.iterations;
+            best = std::move(other);
+            return true;
+        }
+        mirror(x);
+    }
+    return false;
+}
+
 // In equilibrium as it is, with nothing but the energy of the paper.
 bool is_settled(const EmbeddingTerms& terms, const VectorXd& x, double tolerance)
 {
@@ -201,7 +238,7 @@ Settled settle(EmbeddingTerms& terms, VectorXd& x, const MinimiseOptions& option
         smooth(terms, first, 3);
         first = usable(terms, first);
     }
-    const int repairs = start == Start::Edited ? 0 : all_repairs;
+    const int repairs = start == Start::Edited ? 0 : first_repairs + layouts(terms);
     Settled settled;
     Candidate best = attempt(terms, first, options);
     int iterations = best.result.iterations;
@@ -222,11 +259,12 @@ Settled settle(EmbeddingTerms& terms, VectorXd& x, const MinimiseOptions& option
         }
     }
     best.result.iterations = iterations;
-    settled.guarded = embedding_energy(terms, best.iterate.x).guard > 0;
-    if (settled.guarded && best.result.reason == StopReason::Converged) {
-        MinimiseOptions rest = options;
-        rest.max_iterations = start == Start::Edited ? few_iterations : options.max_iterations;
-        settled.guarded = !stands_without_guards(terms, best, rest);
+    MinimiseOptions rest = options;
+    rest.max_iterations = start == Start::Edited ? few_iterations : options.max_iterations;
+    settled.guarded = needs_guards(terms, best, rest);
+    if (settled.guarded && repairs > 0 && has_boundary(terms) && best.result.reason == StopReason::Converged) {
+        settled.guarded = !unroll(terms, best, options);
+        settled.restarts += 1;
     }
     settled.result = best.result;
     x = best.iterate.x;

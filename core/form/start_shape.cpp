@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <queue>
 #include <random>
 
 #include <Eigen/Eigenvalues>
@@ -18,6 +19,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
+constexpr int layout_passes = 60;
 constexpr double dimple_angle = -0.5; // radians; beyond, a hinge belongs to the rim of a dimple
 
 Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal_axes(const VectorXd& x)
@@ -106,6 +108,50 @@ void reflect(const std::vector<std::vector<int>>& neighbours, const std::vector<
             x.segment<3>(3 * v) -= 2 * normal.dot(x.segment<3>(3 * v) - centre) * normal;
         }
     }
+}
+
+// Proportional to the volume within, negative when inside out.
+double volume(const EmbeddingTerms& terms, const VectorXd& x)
+{
+    double sum = 0;
+    for (const HingeVertices& h : terms.hinges) {
+        const Vector3d x0 = x.segment<3>(3 * h[0]);
+        const Vector3d x1 = x.segment<3>(3 * h[1]);
+        sum += x0.cross(x1).dot(x.segment<3>(3 * h[2]) - x.segment<3>(3 * h[3]));
+    }
+    return sum;
+}
+
+// Between all pairs of vertices along springs of rest length, 0 where there is no way.
+MatrixXd graph_distances(const EmbeddingTerms& terms)
+{
+    const int n = terms.vertex_count;
+    std::vector<std::vector<std::pair<int, double>>> neighbours(n);
+    for (const SpringPair& pair : terms.springs) {
+        const double length = (pair.rest[0] + pair.rest[1]) / 2;
+        neighbours[pair.a].emplace_back(pair.b, length);
+        neighbours[pair.b].emplace_back(pair.a, length);
+    }
+    MatrixXd distance = MatrixXd::Zero(n, n);
+    for (int source = 0; source < n; ++source) {
+        using Entry = std::pair<double, int>;
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+        queue.emplace(0, source);
+        std::vector<bool> done(n, false);
+        while (!queue.empty()) {
+            const auto [far, v] = queue.top();
+            queue.pop();
+            if (done[v]) {
+                continue;
+            }
+            done[v] = true;
+            distance(v, source) = far;
+            for (const auto& [w, length] : neighbours[v]) {
+                queue.emplace(far + length, w);
+            }
+        }
+    }
+    return distance;
 }
 
 } // namespace
@@ -209,6 +255,38 @@ VectorXd spectral_layout(const EmbeddingTerms& terms)
     VectorXd mirrored = x;
     mirror(mirrored);
     return embedding_energy(terms, mirrored).total() < embedding_energy(terms, x).total() ? mirrored : x;
+}
+
+VectorXd distance_layout(const EmbeddingTerms& terms, int variant)
+{
+    const int n = terms.vertex_count;
+    const MatrixXd distance = graph_distances(terms);
+    const auto weight = [&](int i, int j) { return 1 / (distance(i, j) * distance(i, j)); };
+    Matrix3Xd x = spectral_layout(terms).reshaped(3, n);
+    std::mt19937_64 random(3 + variant);
+    for (double& value : x.reshaped()) {
+        value += random_unit(random);
+    }
+    for (int pass = 0; pass < layout_passes; ++pass) {
+        for (int i = 0; i < n; ++i) {
+            Vector3d sum = Vector3d::Zero();
+            double weights = 0;
+            for (int j = 0; j < n; ++j) {
+                if (distance(i, j) > 0) {
+                    const Vector3d d = x.col(i) - x.col(j);
+                    sum += weight(i, j) * (x.col(j) + d * (distance(i, j) / std::max(d.norm(), 1e-9)));
+                    weights += weight(i, j);
+                }
+            }
+            x.col(i) = sum / weights;
+        }
+    }
+    VectorXd out = (x.colwise() - x.rowwise().mean()).reshaped();
+    rescale(terms, out);
+    if (volume(terms, out) < 0) {
+        mirror(out);
+    }
+    return out;
 }
 
 double sharpest_concavity(const EmbeddingTerms& terms, const VectorXd& x)

@@ -29,6 +29,12 @@ void separate(const EmbeddingTerms& terms, Eigen::VectorXd& x);
 //! closed surfaces), oriented so that convex is cheaper.
 Eigen::VectorXd spectral_layout(const EmbeddingTerms& terms);
 
+//! \brief Positions from the connectivity alone: distances as nearly those along the surface as space allows (stress
+//! majorisation, Gansner et al. 2004), oriented so that the volume is positive.
+//! \details Finds the hole of a torus, though not from every beginning: each \p variant begins elsewhere. Takes a time
+//! and a memory of n^2.
+Eigen::VectorXd distance_layout(const EmbeddingTerms& terms, int variant);
+
 //! \brief The smallest hinge angle; 0 when there is no hinge.
 double sharpest_concavity(const EmbeddingTerms& terms, const Eigen::VectorXd& x);
 

@@ -276,6 +276,34 @@ TEST(Embedding, PopsADimple)
     EXPECT_NEAR(report.energy, measure(settled, {}).energy, 1e-6 * report.energy);
 }
 
+// A cloud knows nothing of the hole, and the slowest modes of a torus lie in a plane.
+TEST(Embedding, FindsTheHoleOfATorusInACloud)
+{
+    for (const char* name : {"torus-12x6", "torus-16x6"}) {
+        Surface settled = base_shape(name, {}).value().surface;
+        const double energy = embed(settled, {}).energy;
+        for (const unsigned seed : {1, 2}) {
+            Surface surface = settled;
+            transform(surface, [](const Vec3&) { return Vec3(0, 0, 0); });
+            shapes::add_noise(surface, 150, seed);
+            const EmbedReport report = embed(surface, {});
+            EXPECT_TRUE(report.converged) << name << " " << seed << ": " << report.message;
+            EXPECT_NEAR(report.energy, energy, 1e-6 * energy) << name << " " << seed;
+        }
+    }
+}
+
+TEST(Embedding, UnfoldsASheet)
+{
+    for (const unsigned seed : {0, 2, 3, 4, 8, 9, 10}) {
+        Surface surface = base_shape("sheet-4x4", {}).value().surface;
+        shapes::add_noise(surface, seed == 0 ? 0 : 40, seed);
+        const EmbedReport report = embed(surface, {});
+        EXPECT_TRUE(report.converged) << seed << ": " << report.message;
+        EXPECT_EQ(report.guard_energy, 0) << seed;
+    }
+}
+
 TEST(Embedding, LeavesTheThirdDimensionToASheet)
 {
     Surface surface = base_shape("sheet-4x4", {}).value().surface;
