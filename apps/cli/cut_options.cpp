@@ -1,7 +1,8 @@
 #include "apps/cli/cut_options.h"
 
 #include <charconv>
-#include <map>
+
+#include "apps/cli/usage.h"
 
 namespace rhombloom::cli {
 
@@ -109,8 +110,7 @@ std::shared_ptr<CutArguments> add_cut_options(CLI::App& command)
         ->check(CLI::IsMember({"r2000", "r12"}))
         ->option_text("NAME");
     add("--grain", a->grain, "turns allowed on the sheet: any (default), half-turn or fixed")
-        ->transform(CLI::CheckedTransformer(
-            std::map<std::string, Grain>{{"any", Grain::Any}, {"half-turn", Grain::HalfTurn}, {"fixed", Grain::Fixed}}))
+        ->transform(one_of<Grain>({{"any", Grain::Any}, {"half-turn", Grain::HalfTurn}, {"fixed", Grain::Fixed}}))
         ->option_text("NAME");
     add("--price-per-sheet", a->price_per_sheet, "for the cost in kit.json")
         ->check(CLI::Range(0.0, 1e6))

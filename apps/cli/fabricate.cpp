@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 #include "apps/cli/commands.h"
 #include "apps/cli/console.h"
 #include "apps/cli/cut_options.h"
 #include "apps/cli/piece_options.h"
+#include "apps/cli/usage.h"
 #include "core/text.h"
 #include "exporters/manifest.h"
 
@@ -95,12 +95,6 @@ Expected<int> run_fabricate(FabricateOptions& options)
     return print(summary(*kit, options.output)).map([] { return 0; });
 }
 
-template <class T>
-CLI::CheckedTransformer names(const std::map<std::string, T>& values)
-{
-    return CLI::CheckedTransformer(values, CLI::ignore_case);
-}
-
 } // namespace
 
 void add_fabricate(CLI::App& app, Run& run)
@@ -113,16 +107,16 @@ void add_fabricate(CLI::App& app, Run& run)
     command->add_option("-o,--output", options->output, "folder of the kit; made when it is missing")->required();
     command->add_option("--only", options->only, "only these parts: cut,booklet,preview,hooks")
         ->delimiter(',')
-        ->transform(names<KitPart>({{"cut", KitPart::Cut},
-                                    {"booklet", KitPart::Booklet},
-                                    {"preview", KitPart::Preview},
-                                    {"hooks", KitPart::Hooks}}))
+        ->transform(one_of<KitPart>({{"cut", KitPart::Cut},
+                                     {"booklet", KitPart::Booklet},
+                                     {"preview", KitPart::Preview},
+                                     {"hooks", KitPart::Hooks}}))
         ->option_text("PART,...");
     command->add_option("--paper", options->kit.paper, "of booklet and template: a4 (default) or letter")
-        ->transform(names<Paper>({{"a4", Paper::A4}, {"letter", Paper::Letter}}))
+        ->transform(one_of<Paper>({{"a4", Paper::A4}, {"letter", Paper::Letter}}))
         ->option_text("NAME");
     command->add_option("--order", options->kit.order, "of assembly: best (default) or paper")
-        ->transform(names<Order>({{"best", Order::Best}, {"paper", Order::Paper}}))
+        ->transform(one_of<Order>({{"best", Order::Best}, {"paper", Order::Paper}}))
         ->option_text("NAME");
     command->add_flag_callback(
         "--lamp", [options] { options->kit.lamp = LampLook::On; }, "show it lit in the preview");

@@ -46,6 +46,17 @@ void add_version(CLI::App& app)
     }
 }
 
+//! CLI11's sentence; it says "Could not convert: --count = 1.5" of what is no number, or no whole one.
+std::string sentence_of(const CLI::ParseError& error)
+{
+    const std::string text = error.what(), start = "Could not convert: ";
+    if (!text.starts_with(start)) {
+        return text;
+    }
+    const bool fraction = text.find_last_of("0123456789.") + 1 == text.size();
+    return text.substr(start.size()) + ": expected a " + (fraction ? "whole number of usual size" : "number");
+}
+
 int run_program(int argc, char** argv)
 {
     CLI::App app("Designs surfaces from copies of one interlocking element and makes everything needed to build them.",
@@ -69,7 +80,7 @@ int run_program(int argc, char** argv)
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
             return app.exit(error); // --help and --version
         }
-        return complain(std::string(error.what()) + " (see " + cli::called(app, arguments) + " --help)", wrong_usage);
+        return complain(sentence_of(error) + " (see " + cli::called(app, arguments) + " --help)", wrong_usage);
     }
     const auto result = run();
     if (result) {

@@ -1,8 +1,8 @@
-#include <map>
 #include <memory>
 
 #include "apps/cli/commands.h"
 #include "apps/cli/console.h"
+#include "apps/cli/usage.h"
 #include "core/text.h"
 #include "exporters/machines.h"
 #include "exporters/nesting_files.h"
@@ -79,8 +79,6 @@ void add_nest(CLI::App& app, Run& run)
     command->footer("Writes sheet-01.svg and .dxf, ..., and nesting.json with every placement.\n"
                     "Example: rhombloom nest outline.dxf -o sheets --sheet 600x400 --count 188 --spacing 2");
     auto given = std::make_shared<NestCommand>();
-    const std::map<std::string, Grain> grains = {
-        {"any", Grain::Any}, {"half-turn", Grain::HalfTurn}, {"fixed", Grain::Fixed}};
     command->add_option("OUTLINE", given->outline, "one closed contour: .svg, .dxf or .json {\"outline\": [[x,y],...]}")
         ->required();
     command->add_option("-o,--output", given->output, "folder to write")->required();
@@ -90,7 +88,7 @@ void add_nest(CLI::App& app, Run& run)
     command->add_option("--margin", given->options.margin, "mm between finished edges and the sheet's edge")
         ->capture_default_str();
     command->add_option("--grain", given->options.grain, "turns allowed on the sheet: any, half-turn or fixed")
-        ->transform(CLI::CheckedTransformer(grains))
+        ->transform(one_of<Grain>({{"any", Grain::Any}, {"half-turn", Grain::HalfTurn}, {"fixed", Grain::Fixed}}))
         ->option_text("NAME=any");
     command->add_flag("--mirror", given->mirror, "copies may be cut as mirror images");
     command->add_option("--remnant", given->remnant, "size WxH of an offcut that is filled first");

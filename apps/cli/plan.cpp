@@ -2,6 +2,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/console.h"
+#include "apps/cli/usage.h"
 #include "core/building/bulb_hatch.h"
 #include "core/text.h"
 #include "exporters/plan_file.h"
@@ -51,8 +52,7 @@ void add_plan(CLI::App& app, Run& run)
     auto json = std::make_shared<bool>(false);
     command->add_option("DESIGN", *design, "design file")->required();
     command->add_option("--order", *order, "best (default) or paper")
-        ->transform(
-            CLI::CheckedTransformer(std::map<std::string, Order>{{"best", Order::Best}, {"paper", Order::Paper}}))
+        ->transform(one_of<Order>({{"best", Order::Best}, {"paper", Order::Paper}}))
         ->option_text("NAME");
     command->add_flag("--json", *json, "the whole plan, machine-readable");
     command->callback(

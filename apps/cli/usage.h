@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,24 @@ std::string unknown_name(const CLI::App& app, std::span<const std::string> argum
 //! \brief The one of \p known that takes the fewest insertions, deletions, replacements and swaps to become \p name;
 //! empty when none takes fewer than half of its letters.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
+
+//! \brief Turns a name, in any case, into its value; refuses others with the names there are, in their order.
+template <class T>
+CLI::Validator one_of(std::vector<std::pair<std::string, T>> values)
+{
+    const auto convert = [values = std::move(values)](std::string& input) -> std::string {
+        std::string known;
+        for (const auto& [name, value] : values) {
+            if (CLI::detail::to_lower(input) == name) {
+                input = std::to_string(static_cast<int>(value));
+                return "";
+            }
+            known += (known.empty() ? "" : ", ") + name;
+        }
+        return "\"" + input.substr(0, 40) + "\" is unknown; expected " + known;
+    };
+    return CLI::Validator(convert, "");
+}
 
 //! \brief The command among \p arguments: "rhombloom nest", or "rhombloom" when there is none.
 std::string called(const CLI::App& app, std::span<const std::string> arguments);

@@ -101,7 +101,10 @@ for arguments, words in [(["fabrcate", good], "did you mean fabricate?"), (["--v
                          (["fabricate", good, "-o", work / "out", "--machin", "k40"], "did you mean --machine?"),
                          (["nest", good, "-o", work / "out", "--cuont", "4"], "did you mean --count?"),
                          (["embed", good, "-o", work / "out", "--qqqqqq"], "rhombloom embed --help"),
-                         (["nest", good], "rhombloom nest --help")]:
+                         (["nest", good], "rhombloom nest --help"),
+                         (["nest", good, "-o", work / "out", "--count", "many"], "--count = many: expected a number"),
+                         (["nest", good, "-o", work / "out", "--count", "9", "--grain", "1"], "any, half-turn, fixed"),
+                         (["fabricate", good, "-o", work / "out", "--only", "cut,hoks"], "cut, booklet, preview, hooks")]:
     expect(f"usage {arguments}", run(arguments), 2, words)
 for command in ["fabricate", "check", "embed", "shapes", "plan", "nest", "import", "studio"]:
     told = run([command, "--version"]), run([command, "--help"])
