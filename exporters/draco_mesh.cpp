@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+#include <draco/compression/attributes/normal_compression_utils.h>
 #include <draco/compression/decode.h>
 #include <draco/compression/expert_encode.h>
 
@@ -98,35 +100,76 @@ Expected<DracoMesh> decode(const DracoStream& stream)
     return decoded;
 }
 
+using LatticePoint = Eigen::Matrix<std::int64_t, 3, 1>;
+
+//! The decoder's sum of area vectors as the direction it predicts, in its whole numbers.
+Eigen::Vector3f predicted_direction(LatticePoint sum, const draco::OctahedronToolBox& box)
+{
+    constexpr std::int64_t most = 1 << 29;
+    const std::int64_t size = sum.cwiseAbs().sum();
+    if (size > most) {
+        sum /= size / most;
+    }
+    std::array<std::int32_t, 3> whole{};
+    for (int k = 0; k < 3; ++k) {
+        whole[k] = static_cast<std::int32_t>(sum(k));
+    }
+    box.CanonicalizeIntegerVector(whole.data());
+    return Eigen::Vector3i(whole[0], whole[1], whole[2]).cast<float>().normalized();
+}
+
 } // namespace
 
-int quantisation_bits(double extent, double tolerance)
+PointGrid point_grid(const std::vector<Eigen::Vector3f>& points, double tolerance)
 {
-    // The grid's half diagonal is the largest error; leave a little for the float arithmetic of decoders.
-    const double cells = extent * std::sqrt(3.0) / (2 * 0.98 * tolerance) + 1;
-    return std::clamp(static_cast<int>(std::ceil(std::log2(cells))), 2, 30);
-}
-
-double extent(const std::vector<Eigen::Vector3f>& points)
-{
-    Eigen::Vector3f low = points.front();
-    Eigen::Vector3f high = points.front();
+    Eigen::AlignedBox3f box;
     for (const Eigen::Vector3f& p : points) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
+        box.extend(p);
     }
-    return (high - low).maxCoeff();
+    // The cell's half diagonal is the largest error; leave a little for the float arithmetic of decoders.
+    PointGrid grid;
+    grid.origin = box.min();
+    grid.step = 2 * 0.98 * tolerance / std::sqrt(3.0);
+    const double cells = static_cast<double>(box.sizes().maxCoeff()) / grid.step + 1;
+    grid.bits = std::clamp(static_cast<int>(std::ceil(std::log2(cells + 1))), 2, 30);
+    return grid;
 }
 
-Expected<DracoStream> compress(const DracoMesh& mesh, int point_bits, int normal_bits)
+std::vector<Eigen::Vector3f> expected_normals(const DracoMesh& mesh, const PointGrid& grid, int normal_bits,
+                                              double within_deg)
+{
+    std::vector<LatticePoint> places;
+    for (const Eigen::Vector3f& p : mesh.points) {
+        places.emplace_back(((p - grid.origin).cast<double>() / grid.step).array().round().cast<std::int64_t>());
+    }
+    std::vector<LatticePoint> sums(places.size(), LatticePoint::Zero());
+    for (const auto& t : mesh.triangles) {
+        const LatticePoint area = (places[t[1]] - places[t[0]]).cross(places[t[2]] - places[t[0]]);
+        for (const int corner : t) {
+            sums[corner] += area;
+        }
+    }
+    draco::OctahedronToolBox box;
+    box.SetQuantizationBits(normal_bits);
+    const auto least = static_cast<float>(std::cos(within_deg * std::acos(-1.0) / 180));
+    std::vector<Eigen::Vector3f> normals = mesh.normals;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const Eigen::Vector3f direction = predicted_direction(sums[i], box);
+        if (direction.dot(normals[i]) >= least) {
+            normals[i] = direction;
+        }
+    }
+    return normals;
+}
+
+Expected<DracoStream> compress(const DracoMesh& mesh, const PointGrid& grid, int normal_bits)
 {
     draco::Mesh source;
     const Ids ids = fill(source, mesh);
-    source.DeduplicateAttributeValues();
-    source.DeduplicatePointIds();
     draco::ExpertEncoder encoder(source);
-    encoder.SetSpeedOptions(1, 1);
-    encoder.SetAttributeQuantization(ids.point, point_bits);
+    encoder.SetSpeedOptions(0, 0);
+    const auto range = static_cast<float>(grid.step * (std::exp2(grid.bits) - 1));
+    encoder.SetAttributeExplicitQuantization(ids.point, grid.bits, 3, grid.origin.data(), range);
     if (ids.normal >= 0) {
         encoder.SetAttributeQuantization(ids.normal, normal_bits);
     }

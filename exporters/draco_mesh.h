@@ -31,13 +31,24 @@ struct DracoStream
     DracoMesh decoded; //!< read back from the bytes: what a viewer will see, in its order
 };
 
-//! \brief Bits per coordinate so that no point of a mesh this wide moves by more than \p tolerance (same unit).
-int quantisation_bits(double extent, double tolerance);
+//! \brief The lattice on which a stream keeps its points: `origin + step * (i, j, k)`, every number of \p bits bits.
+struct PointGrid
+{
+    Eigen::Vector3f origin = Eigen::Vector3f::Zero();
+    double step = 1;
+    int bits = 1;
+};
 
-//! \brief Compress with \p point_bits per coordinate and \p normal_bits per normal, and decode again.
-Expected<DracoStream> compress(const DracoMesh& mesh, int point_bits, int normal_bits);
+//! \brief The coarsest lattice on which no point moves by more than \p tolerance (same unit).
+PointGrid point_grid(const std::vector<Eigen::Vector3f>& points, double tolerance);
 
-//! \brief The largest side of the bounding box.
-double extent(const std::vector<Eigen::Vector3f>& points);
+//! \brief The normals of \p mesh, turned to what a decoder expects from the triangles, which costs nothing, where that
+//! is within \p within_deg of them.
+//! \details The expectation is the sum of the adjacent triangles' area vectors: smooth where the mesh is.
+std::vector<Eigen::Vector3f> expected_normals(const DracoMesh& mesh, const PointGrid& grid, int normal_bits,
+                                              double within_deg);
+
+//! \brief Compress with points on \p grid and \p normal_bits per normal, and decode again.
+Expected<DracoStream> compress(const DracoMesh& mesh, const PointGrid& grid, int normal_bits);
 
 } // namespace rhombloom

@@ -67,17 +67,24 @@ Expected<std::string> assembled(const std::string& title, const std::string& dat
     const Expected<std::string> page = viewer_part("viewer.html");
     const Expected<std::string> style = viewer_part("viewer.css");
     const Expected<std::string> script = viewer_part("viewer.js");
-    for (const auto* part : {&page, &style, &script}) {
+    const Expected<std::string> start = viewer_part("viewer_start.js");
+    for (const auto* part : {&page, &style, &script, &start}) {
         if (!*part) {
             return tl::make_unexpected(part->error());
         }
     }
     const std::string css = lean(*style);
     const std::string js = lean(*script);
-    const std::string policy = "default-src 'none'; script-src " + source_hash(js) + "; style-src " + source_hash(css) +
-                               "; base-uri 'none'; form-action 'none'";
-    return filled(
-        *page, {{"POLICY", policy}, {"TITLE", markup_escaped(title)}, {"STYLE", css}, {"SCRIPT", js}, {"DATA", data}});
+    const std::string first = lean(*start);
+    // The viewer is unpacked by the page itself; the policy lets exactly these two scripts run.
+    const std::string policy = "default-src 'none'; script-src " + source_hash(first) + " " + source_hash(js) +
+                               "; style-src " + source_hash(css) + "; base-uri 'none'; form-action 'none'";
+    return filled(*page, {{"POLICY", policy},
+                          {"TITLE", markup_escaped(title)},
+                          {"STYLE", css},
+                          {"START", first},
+                          {"VIEWER", packed_text(js)},
+                          {"DATA", data}});
 }
 
 } // namespace

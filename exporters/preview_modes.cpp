@@ -101,7 +101,7 @@ Expected<DracoStream> compressed_base(const PreviewModel& model, const SolidElem
         mesh.order.push_back(static_cast<std::uint16_t>(i));
     }
     mesh.triangles = solid_triangles(model.bent.sheet, Outward::Front);
-    return compress(mesh, quantisation_bits(extent(mesh.points), 0.5 * grid.step / grid.unit), normal_bits);
+    return compress(mesh, point_grid(mesh.points, 0.5 * grid.step / grid.unit), normal_bits);
 }
 
 Json group(const std::string& name, Outward outward, const std::string& component, double unit)

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
-#include <zlib.h>
+
+#include "exporters/pdf_objects.h"
 
 namespace rhombloom {
 
@@ -29,17 +30,6 @@ std::vector<std::int32_t> rounded(const Eigen::VectorXd& values, double scale)
     for (const double v : values) {
         result.push_back(static_cast<std::int32_t>(std::lround(v * scale)));
     }
-    return result;
-}
-
-std::string deflated(const std::string& bytes)
-{
-    uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-    std::string result(size, '\0');
-    const int status = compress2(reinterpret_cast<Bytef*>(result.data()), &size,
-                                 reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), 9);
-    expects(status == Z_OK, "deflated: the buffer is large enough");
-    result.resize(size);
     return result;
 }
 
@@ -224,7 +214,7 @@ std::string payload(const PreviewModel& model, const PreviewSteps& steps, const 
         append(bytes, weights, 2);
     }
     append(bytes, neighbours, 4);
-    return base64(deflated(bytes));
+    return packed_text(bytes);
 }
 
 } // namespace
@@ -241,6 +231,11 @@ std::string base64(const std::string& bytes)
         }
     }
     return text;
+}
+
+std::string packed_text(const std::string& bytes)
+{
+    return base64(deflated({bytes}).front());
 }
 
 PackedPreview packed_preview(const PreviewModel& model, const PreviewSteps& steps, const Element& element,

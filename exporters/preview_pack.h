@@ -17,6 +17,9 @@ struct PackedPreview
 PackedPreview packed_preview(const PreviewModel& model, const PreviewSteps& steps, const Element& element,
                              const PreviewOptions& options);
 
+//! \brief zlib-compressed and base64-encoded, as the page unpacks it (templates/viewer_start.js).
+std::string packed_text(const std::string& bytes);
+
 std::string base64(const std::string& bytes);
 
 } // namespace rhombloom

@@ -53,7 +53,7 @@ async function elements_of(name) {
       const table = node.getExtras();
       points.forEach((p, i) => {
         const e = ids.getScalar(i), key = table.names[e];
-        if (!found.has(key)) found.set(key, { points: [], extras: { step: table.steps[e], side: table.sides[e], component: table.components[e] } });
+        if (!found.has(key)) found.set(key, { points: [], extras: { step: table.steps[e], side: table.flipped.includes(e) ? 'back' : 'front', component: table.components[table.component[e]] } });
         found.get(key).points.push(p);
       });
     }

@@ -28,7 +28,7 @@ TEST(Draco, KeepsTheTolerance)
 {
     const DracoMesh mesh = grid(30);
     for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
-        const DracoStream stream = *compress(mesh, quantisation_bits(extent(mesh.points), tolerance), 8);
+        const DracoStream stream = *compress(mesh, point_grid(mesh.points, tolerance), 8);
         ASSERT_FALSE(stream.decoded.points.empty());
         for (std::size_t i = 0; i < stream.decoded.points.size(); ++i) {
             const auto& truth = mesh.points[stream.decoded.order[i]];
@@ -37,9 +37,46 @@ TEST(Draco, KeepsTheTolerance)
     }
 }
 
-TEST(Draco, SpendsNoBitTooMany)
+TEST(Draco, StepsUseTheWholeTolerance)
 {
-    EXPECT_GT(std::sqrt(3.0) * 0.3 / (2 * (std::exp2(quantisation_bits(0.3, 5e-5) - 1) - 1)), 5e-5 * 0.97);
+    const DracoMesh mesh = grid(30);
+    const PointGrid lattice = point_grid(mesh.points, 5e-5);
+    EXPECT_GT(lattice.step * std::sqrt(3.0) / 2, 0.97 * 5e-5);
+    EXPECT_LT(std::exp2(lattice.bits - 1) * lattice.step, 0.3); // one bit fewer would not reach across
+}
+
+// A wavy sheet: expected normals are close to the smooth ones and take next to no bytes.
+TEST(Draco, ExpectedNormalsAreFree)
+{
+    DracoMesh mesh;
+    constexpr int n = 40;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            const float x = 0.01F * static_cast<float>(i);
+            const float y = 0.01F * static_cast<float>(j);
+            mesh.points.emplace_back(x, y, 0.02F * std::sin(20 * x) * std::cos(15 * y));
+            mesh.normals.push_back(Eigen::Vector3f(-0.4F * std::cos(20 * x) * std::cos(15 * y),
+                                                   0.3F * std::sin(20 * x) * std::sin(15 * y), 1)
+                                       .normalized());
+            if (i + 1 < n && j + 1 < n) {
+                const int v = i * n + j;
+                mesh.triangles.push_back({v, v + n, v + 1});
+                mesh.triangles.push_back({v + n, v + n + 1, v + 1});
+            }
+        }
+    }
+    const PointGrid lattice = point_grid(mesh.points, 1e-5);
+    const std::size_t smooth = compress(mesh, lattice, 8)->bytes.size();
+    const std::vector<Eigen::Vector3f> normals = expected_normals(mesh, lattice, 8, 20);
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        EXPECT_GT(normals[i].dot(mesh.normals[i]), 0.95F) << i;
+    }
+    mesh.normals = normals;
+    const std::size_t free = compress(mesh, lattice, 8)->bytes.size();
+    mesh.normals.clear();
+    const std::size_t without = compress(mesh, lattice, 8)->bytes.size();
+    EXPECT_LT(free, without + 100);
+    EXPECT_GT(smooth, without + 400);
 }
 
 TEST(Gltf, FileHasItsLengthAndItsChunks)
