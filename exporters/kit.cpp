@@ -80,6 +80,7 @@ Expected<void> add_preview(Kit& kit, const Design& design, const Replay& replay,
     preview.thumbnail_size = 512; // enough for a mail or a list of designs
     preview.lamp = options.lamp;
     preview.hooks = piece.parameters.hook;
+    preview.target = options.target;
     auto made = preview_files(replay, plan, piece.element, preview);
     if (!made) {
         return tl::make_unexpected(made.error());

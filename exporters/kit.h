@@ -1,9 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <set>
 
 #include "core/building/assembly_plan.h"
+#include "core/design/mesh_import/triangle_mesh.h"
 #include "exporters/buildability.h"
 #include "exporters/cut_sheet.h"
 #include "exporters/save.h"
@@ -26,6 +28,7 @@ struct KitOptions
     Paper paper = Paper::A4;
     Order order = Order::Best;
     LampLook lamp = LampLook::Off;
+    std::optional<TriangleMesh> target; //!< of an import, mm: shown beside and within the preview
     std::string program_version;
     //! Told what is being made. Empty: nobody listens.
     std::function<void(const std::string&)> progress;

@@ -76,6 +76,7 @@ std::string contents(const FileSet& files)
         {"preview.glb", "preview.glb             the 3D model, small; "
                         "preview-plain.glb opens everywhere"},
         {"thumbnail.png", "thumbnail.png           a picture"},
+        {"target.png", "target.png              the mesh that was imported, and the elements beside it"},
         {"hooks/element.scad", "hooks/                  the element and its "
                                "fittings for OpenSCAD and 3D printers"},
         {"plan.json", "plan.json, surface.json, kit.json   the same for other programs"},

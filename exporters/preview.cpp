@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "exporters/bending_modes_settle.h"
 #include "exporters/bent_element_report.h"
+#include "exporters/comparison.h"
 #include "exporters/preview_html.h"
 #include "exporters/preview_model.h"
 
@@ -179,11 +180,17 @@ Expected<PreviewFiles> preview_files(const Replay& replay, const AssemblyPlan& p
     Expected<PreviewPage> page;
     Expected<std::string> png;
     std::string plain;
-    const std::array<std::function<void()>, 4> files = {
+    Expected<std::string> comparison;
+    const std::array<std::function<void()>, 5> files = {
         [&] { png = picture_png(model.bent, thumbnail_options(options)); },
         [&] { compressed = smallest_glb(model, options, encoding); },
         [&] { page = preview_page(model, *steps, element, options); },
         [&] { plain = plain_glb(model, options); },
+        [&] {
+            if (options.target) {
+                comparison = comparison_png(model.bent, *options.target, thumbnail_options(options));
+            }
+        },
     };
     parallel_tasks(default_threads(), static_cast<int>(files.size()), [&](int k) { files[k](); });
     if (!compressed) {
@@ -194,6 +201,9 @@ Expected<PreviewFiles> preview_files(const Replay& replay, const AssemblyPlan& p
     }
     if (!png) {
         return tl::make_unexpected(png.error());
+    }
+    if (!comparison) {
+        return tl::make_unexpected(comparison.error());
     }
     PreviewFiles result;
     PreviewReport& report = result.report;
@@ -210,6 +220,9 @@ Expected<PreviewFiles> preview_files(const Replay& replay, const AssemblyPlan& p
     result.files["preview-plain.glb"] = std::move(plain);
     result.files["preview.html"] = std::move(page->html);
     result.files["thumbnail.png"] = std::move(*png);
+    if (options.target) {
+        result.files["target.png"] = std::move(*comparison);
+    }
     return result;
 }
 

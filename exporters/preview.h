@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/building/assembly_plan.h"
+#include "core/design/mesh_import/triangle_mesh.h"
 #include "exporters/save.h"
 #include "exporters/thumbnail.h"
 
@@ -16,6 +17,7 @@ struct PreviewOptions
     int thumbnail_size = 768;                   //!< pixels
     Background background = Background::Studio; //!< of the thumbnail
     std::optional<HookParameters> hooks;        //!< the default ones for the element when not given
+    std::optional<TriangleMesh> target;         //!< of an import, mm: a ghost in preview-plain.glb, and target.png
 };
 
 //! How preview.glb holds the elements.
@@ -38,7 +40,7 @@ struct PreviewReport
     std::size_t thumbnail_bytes = 0;
 };
 
-//! \brief preview.glb, preview-plain.glb, preview.html and thumbnail.png.
+//! \brief preview.glb, preview-plain.glb, preview.html and thumbnail.png; with a target also target.png.
 struct PreviewFiles
 {
     FileSet files;

@@ -207,7 +207,8 @@ Color sample_color(const Shading& s, int x, int y, const Surroundings& around)
     if (inside) {
         n = -n;
     }
-    const Color& tint = sheet_tints[s.bent.elements[s.samples.element[i]].outward == Outward::Back ? 1 : 0];
+    const Color& by_side = sheet_tints[s.bent.elements[s.samples.element[i]].outward == Outward::Back ? 1 : 0];
+    const Color tint = s.options.tint.value_or(by_side);
     return s.options.lamp == LampLook::On ? glowing(s, p, n, tint, around, inside, s.samples.sheets[i])
                                           : plastic(s, p, n, tint, around, inside);
 }
@@ -258,23 +259,23 @@ std::array<std::uint8_t, 4> pixel(const Shading& shading, int px, int py)
     return {encoded(mean.x()), encoded(mean.y()), encoded(mean.z()), alpha};
 }
 
-Expected<std::string> write_png(const std::vector<std::uint8_t>& rgba, int width, int height)
+} // namespace
+
+Expected<std::string> png_of(const Picture& picture)
 {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(width);
-    image.height = static_cast<png_uint_32>(height);
+    image.width = static_cast<png_uint_32>(picture.width);
+    image.height = static_cast<png_uint_32>(picture.height);
     image.format = PNG_FORMAT_RGBA;
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
     std::string bytes(size, '\0');
-    if (png_image_write_to_memory(&image, bytes.data(), &size, 0, rgba.data(), 0, nullptr) == 0) {
+    if (png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.rgba.data(), 0, nullptr) == 0) {
         return machine_failure(std::string("the picture could not be written as PNG: ") + image.message);
     }
     bytes.resize(size);
     return bytes;
 }
-
-} // namespace
 
 PictureCamera fitted_camera(const std::vector<Vec3>& points, const PictureOptions& options)
 {
@@ -300,7 +301,7 @@ PictureCamera fitted_camera(const std::vector<Vec3>& points, const PictureOption
     return camera;
 }
 
-Expected<std::string> picture_png(const BentSurface& bent, const PictureOptions& options)
+Expected<Picture> picture(const BentSurface& bent, const PictureOptions& options)
 {
     if (std::min(options.width, options.height) < 16 || std::max(options.width, options.height) > 8192) {
         return refuse("the picture is " + std::to_string(options.width) + " x " + std::to_string(options.height) +
@@ -308,20 +309,28 @@ Expected<std::string> picture_png(const BentSurface& bent, const PictureOptions&
     }
     const RasterScene scene = scene_of(bent);
     Projection projection;
-    projection.camera = fitted_camera(scene.points, options);
+    projection.camera = options.camera.value_or(fitted_camera(scene.points, options));
     projection.width = options.width * supersampling;
     projection.height = options.height * supersampling;
     const Samples samples = rasterise(scene, projection, 9);
     const Lights lights = make_lights(scene, projection.camera);
     const Shading shading{options, samples, projection, lights, bent};
-    std::vector<std::uint8_t> rgba(static_cast<std::size_t>(options.width) * options.height * 4);
+    Picture result{options.width, options.height, {}};
+    result.rgba.resize(static_cast<std::size_t>(options.width) * options.height * 4);
     parallel_tasks(default_threads(), options.height, [&](int y) {
         for (int x = 0; x < options.width; ++x) {
             const auto p = pixel(shading, x, y);
-            std::copy(p.begin(), p.end(), rgba.begin() + static_cast<std::ptrdiff_t>((y * options.width + x) * 4));
+            std::copy(p.begin(), p.end(),
+                      result.rgba.begin() + static_cast<std::ptrdiff_t>((y * options.width + x) * 4));
         }
     });
-    return write_png(rgba, options.width, options.height);
+    return result;
+}
+
+Expected<std::string> picture_png(const BentSurface& bent, const PictureOptions& options)
+{
+    const Expected<Picture> made = picture(bent, options);
+    return made ? png_of(*made) : Expected<std::string>(tl::make_unexpected(made.error()));
 }
 
 Expected<std::string> surface_picture_png(const Surface& surface, const Element& element, const PictureOptions& options)

@@ -8,6 +8,7 @@
 #include "apps/cli/usage.h"
 #include "core/text.h"
 #include "exporters/manifest.h"
+#include "exporters/target_file.h"
 
 namespace rhombloom::cli {
 
@@ -54,6 +55,9 @@ void remove_stale(const std::string& folder, const std::vector<std::string>& old
 
 Expected<Kit> make(FabricateOptions& options, Progress& progress)
 {
+    if (!options.only.empty()) {
+        options.kit.parts = {options.only.begin(), options.only.end()};
+    }
     const auto design = load_design(options.design);
     if (!design) {
         return tl::make_unexpected(design.error());
@@ -69,11 +73,15 @@ Expected<Kit> make(FabricateOptions& options, Progress& progress)
     if (!replayed) {
         return tl::make_unexpected(replayed.error());
     }
+    if (options.kit.parts.contains(KitPart::Preview)) {
+        auto target = load_targets(*design, std::filesystem::path(options.design).parent_path().string());
+        if (!target) {
+            return tl::make_unexpected(Error{options.design + ": " + target.error().message, target.error().kind});
+        }
+        options.kit.target = std::move(*target);
+    }
     options.kit.progress = [&](const std::string& what) { progress.show(what); };
     options.kit.program_version = RHOMBLOOM_VERSION;
-    if (!options.only.empty()) {
-        options.kit.parts = {options.only.begin(), options.only.end()};
-    }
     return make_kit(*design, *replayed, *piece, options.kit);
 }
 

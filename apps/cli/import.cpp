@@ -6,11 +6,12 @@
 #include "apps/cli/console.h"
 #include "core/design/design_file.h"
 #include "core/design/mesh_import/mesh_import.h"
+#include "core/design/mesh_import/network.h"
 #include "core/text.h"
+#include "exporters/comparison.h"
 #include "exporters/mesh_reader.h"
-#include "exporters/mesh_writer.h"
 #include "exporters/save.h"
-#include "exporters/sha256.h"
+#include "exporters/target_file.h"
 
 namespace rhombloom::cli {
 
@@ -40,6 +41,12 @@ Expected<Element> element(const ImportArguments& arguments)
         return tl::make_unexpected(ok.error());
     }
     return result;
+}
+
+//! Where the picture of target and elements goes: vase.json, vase.png.
+std::string picture_path(const std::string& design)
+{
+    return std::filesystem::path(design).replace_extension(".png").string();
 }
 
 std::string in_la(double mm, const ImportReport& report)
@@ -83,7 +90,7 @@ std::string as_text(const ImportedMesh& made, const std::string& design)
     if (const std::string problem = build_problem(r); !problem.empty()) {
         text += "problem: " + problem + "\n";
     }
-    return text + "wrote " + design + "\n";
+    return text + "wrote " + design + " and the picture " + picture_path(design) + "\n";
 }
 
 nlohmann::ordered_json as_json(const Deviation& deviation, double la)
@@ -141,19 +148,37 @@ Expected<ImportedMesh> make(const ImportArguments& arguments, Progress& progress
     return import_mesh(file->mesh, options);
 }
 
-//! The target is stored beside the design, under its content's hash.
+//! The target and the elements side by side.
+Expected<std::string> comparison(const ImportedMesh& made)
+{
+    PictureOptions options;
+    options.width = options.height = 480;
+    const auto surface = network(made.operation);
+    return surface ? comparison_png(*surface, made.element, made.target, options)
+                   : Expected<std::string>(tl::make_unexpected(surface.error()));
+}
+
+//! The target is stored beside the design, under its content's hash, and a picture of both under the design's name.
 Expected<void> store(ImportedMesh& made, const std::string& output, const std::string& title)
 {
-    const std::string target = write_ply(made.target);
-    made.operation.target_sha256 = sha256(target);
-    made.operation.target = "target-" + made.operation.target_sha256.substr(0, 16) + ".ply";
+    const TargetFile target = target_file(made.target);
+    made.operation.target = target.name;
+    made.operation.target_sha256 = target.sha256;
     Design design;
     design.title = title;
     design.element = made.element;
     design.operations = {made.operation};
-    const auto beside = std::filesystem::path(output).parent_path() / made.operation.target;
-    if (auto ok = save_file(beside.string(), target); !ok) {
-        return ok;
+    const auto picture = comparison(made);
+    if (!picture) {
+        return tl::make_unexpected(picture.error());
+    }
+    const std::filesystem::path path(output);
+    const std::vector<std::pair<std::filesystem::path, const std::string*>> beside = {
+        {path.parent_path() / target.name, &target.bytes}, {picture_path(output), &*picture}};
+    for (const auto& [name, bytes] : beside) {
+        if (auto ok = save_file(name.string(), *bytes); !ok) {
+            return ok;
+        }
     }
     return save_file(output, write_design(design));
 }
@@ -182,7 +207,7 @@ void add_import(CLI::App& app, Run& run)
     command->footer(
         "Example: rhombloom import vase.obj -o vase.json --elements 600 --height 400\n"
         "Give at most two of --elements, --la and --height; the third follows. The repaired target is stored "
-        "beside the design.");
+        "beside the design, and a picture of both (vase.png).");
     auto arguments = std::make_shared<ImportArguments>();
     command->add_option("MESH", arguments->mesh, "file with the target")->required();
     command->add_option("-o,--output", arguments->output, "design file to write")->required();
