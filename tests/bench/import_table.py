@@ -1,9 +1,11 @@
 """Imports many kinds of targets at several sizes and prints how each went.
 
-    /usr/bin/python3 import_table.py PROGRAM SOURCE_DIR [--elements 150,300] [--only NAME ...] [--scans N]
+    /usr/bin/python3 import_table.py PROGRAM SOURCE_DIR [--elements 150,300] [--only NAME ...] [--scans N] [--folder MESHES]
 
 An import counts as good when `rhombloom check` calls the design buildable, no element crosses another, and the number of
-elements is within 5 % of what was asked for. Otherwise the reason is printed. Needs numpy.
+elements is within 5 % of what was asked for. Otherwise the reason is printed. A mesh that is refused before any network
+is searched (several solids, an open sheet) counts as refused, not as failed. `size` is the distance as a share of the
+square root of the target's area: it should fall as the elements become more. Needs numpy.
 """
 import argparse
 import json
@@ -21,6 +23,7 @@ parser.add_argument("source", type=pathlib.Path)
 parser.add_argument("--elements", default="150,300,600,1200")
 parser.add_argument("--only", nargs="*", default=[])
 parser.add_argument("--scans", type=int, default=6, help="random blobs with noise")
+parser.add_argument("--folder", type=pathlib.Path, help="meshes of your own, in place of the shapes made here")
 arguments = parser.parse_args()
 sys.path.insert(0, str(arguments.source / "examples/targets"))
 import make_targets  # noqa: E402
@@ -87,21 +90,30 @@ def row(name, mesh, elements, folder):
                              "--json"], capture_output=True)
     seconds = time.monotonic() - begin
     if not result.stdout:
-        return {"good": False, "line": result.stderr.decode().strip(), "rms": None}  # refused, with the reason
+        told = result.stderr.decode().strip()
+        unfit = any(word in told for word in ("separate solids", "open sheet", "one-sided", "encloses nothing"))
+        return {"good": False, "refused": unfit, "line": told, "size": None}
     report = json.loads(result.stdout)
     check = verdict(design)
     problems = check["problems"] + ([report["problem"]] if report["problem"] else [])
     if abs(report["elements"] / elements - 1) > 0.05:
         problems.append(f"{report['elements']} elements")
     both = [report[side]["rms_la"] for side in ("to_target", "from_target")]
-    line = (f"n {report['elements']:5d}  rms {both[0]:.3f} / {both[1]:.3f} la  max {report['to_target']['max_la']:.2f} / "
+    # An element covers 0.866 la^2 of the target.
+    size = np.hypot(*both) / np.sqrt(2 * 0.866 * report["elements"])
+    line = (f"n {report['elements']:5d}  rms {both[0]:.3f} / {both[1]:.3f} la ({100 * size:.2f} % of the size)  max {report['to_target']['max_la']:.2f} / "
             f"{report['from_target']['max_la']:.2f}  stretch {100 * report['max_stretch']:.2f} %  defects "
             f"{report['min_defect_deg']:.0f} .. {report['max_defect_deg']:.0f}  {seconds:.1f} s")
-    return {"good": not problems and check["buildable"], "line": line + "".join("  ! " + p[:160] for p in problems),
-            "rms": float(np.hypot(*both) / np.sqrt(2 * report["elements"]))}
+    return {"good": not problems and check["buildable"], "refused": False, "size": size,
+            "line": line + "".join("  ! " + p[:160] for p in problems)}
 
 
 def targets(folder):
+    if arguments.folder:
+        for path in sorted(arguments.folder.iterdir()):
+            if not arguments.only or path.stem in arguments.only:
+                yield path.stem, path
+        return
     shapes = {name: lambda s=shape: make_targets.polygonise(*s, 60) for name, shape in make_targets.SHAPES.items()}
     shapes.update({name: lambda m=mesh: m for name, mesh in with_sharp_edges().items()})
     shapes.update({f"scan_{seed}": lambda s=seed: scan(s) for seed in range(arguments.scans)})
@@ -114,20 +126,22 @@ def targets(folder):
 
 def main():
     folder = pathlib.Path(tempfile.mkdtemp(prefix="rhombloom-table-"))
-    good = total = better = pairs = 0
+    good = total = nearer = pairs = refused = 0
     for name, mesh in targets(folder):
         before = None
         for elements in map(int, arguments.elements.split(",")):
             told = row(name, mesh, elements, folder)
+            refused += told["refused"]
             good += told["good"]
-            total += 1
-            if before is not None and told["rms"] is not None:
+            total += not told["refused"]
+            if before is not None and told["size"] is not None:
                 pairs += 1
-                better += told["rms"] < before
-            before = told["rms"] if told["rms"] is not None else before
-            print(f"{name:13s} {elements:5d} {'good' if told['good'] else 'FAIL'} {told['line']}", flush=True)
-    print(f"{good} of {total} good ({100 * good / max(total, 1):.0f} %); more elements came nearer, as a share of the size, in {better} of "
-          f"{pairs} steps")
+                nearer += told["size"] < before
+            before = told["size"] if told["size"] is not None else before
+            word = "good" if told["good"] else "none" if told["refused"] else "FAIL"
+            print(f"{name:13s} {elements:5d} {word} {told['line']}", flush=True)
+    print(f"{good} of {total} good ({100 * good / max(total, 1):.0f} %), {refused} refused; more elements came nearer, "
+          f"measured by the target's size, in {nearer} of {pairs} steps")
 
 
 main()

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <limits>
-
 #include <Eigen/Cholesky>
 
 #include "core/design/mesh_import/remesh_mesh.h"
@@ -20,22 +18,18 @@ using EdgeHandle = EditMesh::EdgeHandle;
 
 constexpr double quantum = pi / 3; // curvature of one triangle more or less
 
-//! The target's curvature, gathered at the nearest point of the triangulation.
-VectorXd target_curvature(const EditMesh& mesh, const MeshTree& target, const std::vector<double>& curvature)
+//! The target's curvature, gathered at the corners of the nearest triangles.
+VectorXd target_curvature(EditMesh& mesh, const MeshTree& target, const std::vector<double>& curvature)
 {
     VectorXd result = VectorXd::Zero(static_cast<int>(mesh.n_vertices()));
-    int nearest = 0;
+    const MeshTree tree(triangle_mesh(mesh));
     for (std::size_t i = 0; i < curvature.size(); ++i) {
         const Vec3& p = target.mesh().points[i];
-        double best = std::numeric_limits<double>::infinity();
-        for (const auto v : mesh.vertices()) {
-            const double d = (mesh.point(v) - p).squaredNorm();
-            if (d < best) {
-                best = d;
-                nearest = v.idx();
-            }
-        }
-        result[nearest] += curvature[i];
+        const Triangle& t = tree.mesh().triangles[tree.nearest(p).triangle];
+        const auto nearer = [&](int a, int b) {
+            return (tree.mesh().points[a] - p).squaredNorm() < (tree.mesh().points[b] - p).squaredNorm();
+        };
+        result[*std::min_element(t.begin(), t.end(), nearer)] += curvature[i];
     }
     return result;
 }
@@ -181,7 +175,7 @@ std::vector<double> point_curvature(const TriangleMesh& mesh)
 
 namespace {
 
-Misfit misfit_of(const EditMesh& mesh, const MeshTree& target, const std::vector<double>& curvature)
+Misfit misfit_of(EditMesh& mesh, const MeshTree& target, const std::vector<double>& curvature)
 {
     Misfit misfit;
     misfit.square = squared_inverse(mesh);
@@ -198,6 +192,9 @@ void relax(EditMesh& mesh, const MeshTree& target, double edge, int sweeps)
     constexpr double stiffness = 0.6; // of the steps: a little over the relaxation of one point alone
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         for (const auto v : mesh.vertices()) {
+            if (is_tip(mesh, v)) {
+                continue;
+            }
             Vec3 step = Vec3::Zero();
             int count = 0;
             for (const auto w : mesh.vv_range(v)) {
@@ -226,15 +223,17 @@ void relax_springs(TriangleMesh& triangles, const MeshTree& target, double edge,
 void match_curvature(TriangleMesh& triangles, const MeshTree& target, const MatchOptions& options)
 {
     constexpr int flip_sweeps = 4;
-    constexpr int relax_sweeps = 12;
+    constexpr int relax_sweeps = 6;
     EditMesh mesh = edit_mesh(triangles);
     const std::vector<double> curvature = point_curvature(target.mesh());
     Random random(options.seed);
+    MatchOptions now = options;
     for (int round = 0; round < options.rounds; ++round) {
         Misfit misfit = misfit_of(mesh, target, curvature);
         for (int sweep = 0; sweep < flip_sweeps; ++sweep) {
-            flip_sweep(mesh, misfit, options, random);
+            flip_sweep(mesh, misfit, now, random);
         }
+        now.temperature *= options.cooling;
         relax(mesh, target, options.edge, relax_sweeps);
     }
     triangles = triangle_mesh(mesh);

@@ -9,8 +9,9 @@ struct MatchOptions
     double edge = 1;          //!< length that all edges should have, in the mesh's unit
     int max_degree = 7;       //!< most triangles at a vertex
     double regularity = 1e-3; //!< price of a vertex whose degree is not 6, against the squared misfit of the metric
-    double temperature = 0;   //!< rise of the misfit that is accepted now and then
-    int rounds = 3;
+    double temperature = 0;   //!< rise of the misfit that is accepted now and then, in the first round
+    double cooling = 0.85;    //!< factor on the temperature from round to round
+    int rounds = 24;
     unsigned seed = 1;
 };
 

@@ -13,6 +13,7 @@ using VertexHandle = EditMesh::VertexHandle;
 using EdgeHandle = EditMesh::EdgeHandle;
 
 constexpr std::size_t most_splits = 4;
+constexpr std::size_t most_collapses = 2;
 
 struct Ranked
 {
@@ -52,6 +53,25 @@ bool degrees_fit(const EditMesh& mesh, EdgeHandle e, int max_degree)
            static_cast<int>(mesh.valence(c)) < max_degree && static_cast<int>(mesh.valence(d)) < max_degree;
 }
 
+//! Would one corner in place of two leave degrees of 4 and more, and is it a surface still?
+bool may_collapse(EditMesh& mesh, EdgeHandle e, int max_degree)
+{
+    const auto h = mesh.halfedge_handle(e, 0);
+    const auto [c, d] = opposite_vertices(mesh, e);
+    const int joined =
+        static_cast<int>(mesh.valence(mesh.from_vertex_handle(h)) + mesh.valence(mesh.to_vertex_handle(h))) - 4;
+    return joined >= 4 && joined <= max_degree && mesh.valence(c) > 4 && mesh.valence(d) > 4 && mesh.is_collapse_ok(h);
+}
+
+//! The first few of \p sorted among the others, the more the later.
+void take_first(std::vector<Ranked>& sorted, std::size_t count, double rank, std::vector<Ranked>& ranked)
+{
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t k = 0; k < std::min(count, sorted.size()); ++k) {
+        ranked.push_back({rank + 2 * static_cast<double>(k), sorted[k].move});
+    }
+}
+
 std::set<int> edges_near(const EditMesh& mesh, const Corners& place)
 {
     const auto h = mesh.find_halfedge(VertexHandle(place.first), VertexHandle(place.second));
@@ -71,10 +91,12 @@ std::set<int> edges_near(const EditMesh& mesh, const Corners& place)
 std::vector<Move> moves_near(const Plan& plan, const Corners& place, const MoveLimits& limits)
 {
     constexpr double split_rank = 4; // between flips that leave degrees 5 and 7 and those that leave worse ones
+    constexpr double collapse_rank = 5;
     constexpr double turn_rank = 6;
-    const EditMesh mesh = edit_mesh(plan.triangles);
+    EditMesh mesh = edit_mesh(plan.triangles);
     std::vector<Ranked> ranked;
     std::vector<Ranked> splits;
+    std::vector<Ranked> collapses;
     for (const int index : edges_near(mesh, place)) {
         const EdgeHandle e(index);
         const Corners corners = corners_of(mesh, e);
@@ -84,15 +106,15 @@ std::vector<Move> moves_near(const Plan& plan, const Corners& place, const MoveL
         if (limits.may_split) {
             splits.push_back({-edge_length(mesh, e), {Move::Kind::Split, corners}});
         }
+        if (limits.may_collapse && may_collapse(mesh, e, limits.max_degree)) {
+            collapses.push_back({edge_length(mesh, e), {Move::Kind::Collapse, corners}});
+        }
         if (corners == place || plan.flipped.count(corners) > 0) {
             ranked.push_back({turn_rank, {Move::Kind::Turn, corners}});
         }
     }
-    std::sort(splits.begin(), splits.end());
-    splits.resize(std::min(splits.size(), most_splits));
-    for (std::size_t k = 0; k < splits.size(); ++k) {
-        ranked.push_back({split_rank + 2 * static_cast<double>(k), splits[k].move});
-    }
+    take_first(splits, most_splits, split_rank, ranked);
+    take_first(collapses, most_collapses, collapse_rank, ranked);
     std::sort(ranked.begin(), ranked.end());
     std::vector<Move> result;
     for (const Ranked& r : ranked) {
@@ -122,13 +144,27 @@ void apply(const Move& move, EditMesh& mesh, std::set<Corners>& flipped)
         return;
     }
     const EdgeHandle e = mesh.edge_handle(h);
+    const Vec3 middle = (mesh.point(mesh.from_vertex_handle(h)) + mesh.point(mesh.to_vertex_handle(h))) / 2;
     if (move.kind == Move::Kind::Split) {
-        const Vec3 middle = (mesh.point(mesh.from_vertex_handle(h)) + mesh.point(mesh.to_vertex_handle(h))) / 2;
         mesh.split(e, mesh.add_vertex(middle));
-    } else if (mesh.is_flip_ok(e)) {
+    } else if (move.kind == Move::Kind::Collapse && mesh.is_collapse_ok(h)) {
+        mesh.set_point(mesh.to_vertex_handle(h), middle);
+        mesh.collapse(h);
+    } else if (move.kind == Move::Kind::Flip && mesh.is_flip_ok(e)) {
         mesh.flip(e);
     }
     flipped.erase(move.corners);
+}
+
+//! New numbers of the corners, without those that collapsed: -1 for them.
+std::vector<int> numbers(const EditMesh& mesh)
+{
+    std::vector<int> result;
+    int next = 0;
+    for (int v = 0; v < static_cast<int>(mesh.n_vertices()); ++v) {
+        result.push_back(mesh.status(VertexHandle(v)).deleted() ? -1 : next++);
+    }
+    return result;
 }
 
 } // namespace
@@ -136,21 +172,35 @@ void apply(const Move& move, EditMesh& mesh, std::set<Corners>& flipped)
 Plan carry_out(const std::vector<Move>& moves, const Plan& plan)
 {
     EditMesh mesh = edit_mesh(plan.triangles);
-    Plan result;
-    result.flipped = plan.flipped;
+    std::set<Corners> flipped = plan.flipped;
     for (const Move& move : moves) {
-        apply(move, mesh, result.flipped);
+        apply(move, mesh, flipped);
     }
     std::map<Triangle, Vec3> known;
     for (std::size_t i = 0; i < plan.middles.size(); ++i) {
         known[sorted(plan.triangles.triangles[i])] = plan.middles[i];
     }
-    result.triangles = triangle_mesh(mesh);
-    const std::vector<Vec3>& points = result.triangles.points;
-    for (const Triangle& t : result.triangles.triangles) {
+    const std::vector<int> number = numbers(mesh);
+    Plan result;
+    for (const auto v : mesh.vertices()) { // leaves out what collapsed
+        result.triangles.points.push_back(mesh.point(v));
+    }
+    for (const auto f : mesh.faces()) {
+        Triangle t{};
+        Vec3 sum = Vec3::Zero();
+        int k = 0;
+        for (const auto v : mesh.fv_range(f)) {
+            t[k++] = v.idx();
+            sum += mesh.point(v);
+        }
         const auto found = known.find(sorted(t));
-        result.middles.push_back(found == known.end() ? Vec3((points[t[0]] + points[t[1]] + points[t[2]]) / 3)
-                                                      : found->second);
+        result.middles.push_back(found == known.end() ? Vec3(sum / 3) : found->second);
+        result.triangles.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    }
+    for (const auto& [a, b] : flipped) {
+        if (number[a] >= 0 && number[b] >= 0) {
+            result.flipped.insert(std::minmax(number[a], number[b]));
+        }
     }
     return result;
 }

@@ -9,9 +9,10 @@ struct Move
 {
     enum class Kind
     {
-        Flip,  //!< the element connects the two other corners of its triangles
-        Split, //!< a new corner in the middle of the element: three elements more
-        Turn   //!< the element is turned over
+        Flip,     //!< the element connects the two other corners of its triangles
+        Split,    //!< a new corner in the middle of the element: three elements more
+        Collapse, //!< the element's corners become one in their middle: three elements fewer
+        Turn      //!< the element is turned over
     };
     Kind kind = Kind::Flip;
     Corners corners; //!< of the element
@@ -21,6 +22,7 @@ struct MoveLimits
 {
     int max_degree = 7;
     bool may_split = true;
+    bool may_collapse = true;
 };
 
 //! \brief Changes around the element between two corners, the most promising first.

@@ -9,12 +9,13 @@ namespace rhombloom {
 
 namespace {
 
-constexpr double least_gain = 5e-4; // of the score, la
-constexpr double most_added = 0.02; // of the elements, by splits
-constexpr double reach = 3;         // edges of triangles over which a move is judged
+constexpr double least_gain = 5e-4;   // of the score, la
+constexpr double most_changed = 0.04; // of the number of elements, by splits and collapses
+constexpr double reach = 3;           // edges of triangles over which a move is judged
 constexpr std::size_t most_places = 8;
-constexpr int patience = 4;     // rounds in vain after which it ends
-constexpr int alternatives = 4; // moves that are tried at a place, side by side
+constexpr int patience = 4;       // rounds in vain after which it ends
+constexpr int more_patience = 12; // when it cannot be built yet
+constexpr int alternatives = 4;   // moves that are tried at a place, side by side
 
 //! Where something is to be done, and what.
 struct Place
@@ -92,8 +93,10 @@ std::vector<Place> Polishing::places()
     std::vector<int> order(bad.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return bad[a] > bad[b]; });
-    const double room = (1 + most_added) * trials_.options.elements;
-    const MoveLimits limits{max_move_degree(trials_.element), static_cast<double>(bad.size()) + 3 <= room};
+    const double asked = trials_.options.elements;
+    const auto count = static_cast<double>(bad.size());
+    const MoveLimits limits{max_move_degree(trials_.element), count + 3 <= (1 + most_changed) * asked,
+                            count - 3 >= (1 - most_changed) * asked};
     std::vector<Place> result;
     for (const int k : order) {
         const Vec3& where = best_.ratings[k].middle;
@@ -193,7 +196,11 @@ bool Polishing::round()
     }
     std::vector<std::optional<Trial>> second = settle_all(combined);
     trials.insert(trials.end(), std::make_move_iterator(second.begin()), std::make_move_iterator(second.end()));
+    const std::size_t corners = best_.plan.triangles.points.size();
     if (take(trials)) {
+        if (best_.plan.triangles.points.size() < corners) {
+            tried_.clear(); // corners have other numbers now
+        }
         for (const Place& place : places) {
             tried_.erase(place.corners);
         }
@@ -201,7 +208,7 @@ bool Polishing::round()
     } else {
         ++in_vain_;
     }
-    return in_vain_ < patience;
+    return in_vain_ < (best_.excess > 0 ? more_patience : patience);
 }
 
 } // namespace

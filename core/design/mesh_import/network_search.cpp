@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "core/design/mesh_import/curvature_match.h"
@@ -19,7 +20,7 @@ namespace rhombloom {
 namespace {
 
 constexpr double detail = 6;                       // triangles' edges of the working target per edge of the network
-constexpr double count_tolerance = 0.03;           // of the number of elements
+constexpr double count_tolerance = 0.08;           // of the number of elements, after remeshing
 constexpr double stretch_price = 25;               // la per unit of stretch beyond the limit, summed over the elements
 constexpr std::size_t most_matched_vertices = 900; // of the triangulation; the misfit's matrix is dense
 
@@ -42,7 +43,7 @@ int edge_count(const TriangleMesh& mesh)
 //! Remesh until the number of edges is right; \p edge ends as the length that did it.
 TriangleMesh remesh_to_count(const TriangleMesh& start, const MeshTree& target, int wanted, RemeshOptions options)
 {
-    constexpr int attempts = 5;
+    constexpr int attempts = 4;
     TriangleMesh best = remesh(start, target, options);
     TriangleMesh last = best;
     for (int i = 0; i < attempts; ++i) {
@@ -52,24 +53,32 @@ TriangleMesh remesh_to_count(const TriangleMesh& start, const MeshTree& target, 
         if (std::abs(ratio - 1) < count_tolerance) {
             break;
         }
-        options.rounds = 4;
         options.edge *= std::sqrt(ratio);
-        last = remesh(last, target, options);
+        last = remesh(start, target, options); // anew: what has lost a limb does not get it back
     }
     return with_edge_count(best, target, wanted, options);
 }
 
-//! Ever cooler: the first shake the triangulation, the last only improve it.
-std::vector<MatchOptions> matchings(const RemeshOptions& remeshing)
+//! One remeshing and what is done to its curvature.
+struct Variant
 {
-    std::vector<MatchOptions> result;
-    for (const double temperature : {2e-3, 3e-4}) {
-        MatchOptions options;
-        options.edge = remeshing.edge;
-        options.max_degree = std::min(7, remeshing.max_degree);
-        options.temperature = temperature;
-        options.seed = static_cast<unsigned>(result.size() + 1);
-        result.push_back(options);
+    double share = 1;       //!< of the triangles' edge length, while they are made
+    double temperature = 0; //!< of the match
+    double regularity = 0;
+    unsigned seed = 1;
+};
+
+//! Four at a time; the later ones are for targets on which the first did not come to anything.
+std::vector<Variant> variants(int attempt)
+{
+    constexpr double warm = 1e-2;
+    constexpr double even = 1e-3;
+    constexpr double further = 0.007;
+    std::vector<Variant> result;
+    for (const double share : {1.0, 1.06, 1.03, 0.97}) {
+        const auto number = static_cast<int>(result.size());
+        result.push_back({share + attempt * further, attempt % 2 == 0 ? warm : 4 * warm,
+                          number % 2 == 0 ? even : 3 * even, static_cast<unsigned>(4 * attempt + number + 1)});
     }
     return result;
 }
@@ -94,16 +103,35 @@ Plan plan_of(const TriangleMesh& triangles, const MeshTree& target)
     return {triangles, triangle_middles(triangles, target), {}};
 }
 
+//! Before it is polished: most stretch can be eased at little cost.
+bool is_better_start(const Trial& a, const Trial& b)
+{
+    constexpr double early_price = 4;
+    return score(a, early_price) < score(b, early_price);
+}
+
 bool is_better(const Trial& a, const Trial& b)
 {
     return score(a, stretch_price) < score(b, stretch_price);
 }
 
+MatchOptions matching(const Trials& trials, const Variant& variant, double temperature, int rounds)
+{
+    MatchOptions options;
+    options.edge = triangle_edge(trials.element);
+    options.max_degree = std::min(7, max_degree(trials.element));
+    options.temperature = temperature;
+    options.rounds = rounds;
+    options.regularity = variant.regularity;
+    options.seed = variant.seed;
+    return options;
+}
+
 //! Networks from one remeshing: as it is, and with its curvature matched; only those that settle.
-std::vector<Trial> start(const Trials& trials, double share)
+std::vector<Trial> start(const Trials& trials, const Variant& variant)
 {
     RemeshOptions remeshing;
-    remeshing.edge = triangle_edge(trials.element) * share;
+    remeshing.edge = triangle_edge(trials.element) * variant.share;
     remeshing.max_degree = max_degree(trials.element);
     std::vector<Trial> result;
     const auto consider = [&](const TriangleMesh& triangles) {
@@ -111,35 +139,80 @@ std::vector<Trial> start(const Trials& trials, double share)
             result.push_back(std::move(*trial));
         }
     };
+    constexpr int rounds = 30;
     const MeshTree& target = trials.target;
-    TriangleMesh triangles = remesh_to_count(target.mesh(), target, trials.options.elements, remeshing);
-    consider(triangles);
-    remeshing.edge = triangle_edge(trials.element);
-    for (const MatchOptions& matching : matchings(remeshing)) {
-        if (triangles.points.size() <= most_matched_vertices) {
-            match_curvature(triangles, target, matching);
-            consider(triangles);
+    const TriangleMesh remeshed = remesh_to_count(target.mesh(), target, trials.options.elements, remeshing);
+    consider(remeshed);
+    if (remeshed.points.size() <= most_matched_vertices) {
+        // A little, for targets with deep hollows, which much would spoil; then as much as is possible, in two heats.
+        TriangleMesh little = remeshed;
+        match_curvature(little, target, matching(trials, variant, 3e-4, 3));
+        consider(little);
+        TriangleMesh matched = remeshed;
+        for (const double cooler : {1.0, 0.2}) {
+            match_curvature(matched, target, matching(trials, variant, cooler * variant.temperature, rounds));
+            consider(matched);
         }
     }
-    std::stable_sort(result.begin(), result.end(), is_better);
     return result;
 }
 
-//! The best network of each of several remeshings, the best first.
-std::vector<Trial> starts(const Trials& trials)
+//! The networks of several remeshings, the best first.
+std::vector<Trial> starts(const Trials& trials, int attempt)
 {
-    const std::vector<double> shares = {1.0, 1.06, 1.03, 0.97};
-    std::vector<std::vector<Trial>> found(shares.size());
-    parallel_tasks(default_threads(), static_cast<int>(shares.size()),
-                   [&](int k) { found[k] = start(trials, shares[k]); });
+    const std::vector<Variant> all = variants(attempt);
+    std::vector<std::vector<Trial>> found(all.size());
+    parallel_tasks(default_threads(), static_cast<int>(all.size()), [&](int k) { found[k] = start(trials, all[k]); });
     std::vector<Trial> result;
-    for (std::vector<Trial>& trial : found) {
-        if (!trial.empty()) {
-            result.push_back(std::move(trial.front()));
-        }
+    for (std::vector<Trial>& trial : found) { // in this order: the same every time
+        std::move(trial.begin(), trial.end(), std::back_inserter(result));
     }
-    std::stable_sort(result.begin(), result.end(), is_better);
+    std::stable_sort(result.begin(), result.end(), is_better_start);
     return result;
+}
+
+//! The best as they are and, of the others, the one that comes nearest whatever its stretch.
+std::vector<Trial> finalists(std::vector<Trial> found)
+{
+    constexpr double small_price = 0.5;
+    if (found.size() > 2) {
+        const auto nearest = std::min_element(found.begin() + 1, found.end(), [](const Trial& a, const Trial& b) {
+            return score(a, small_price) < score(b, small_price);
+        });
+        std::vector<Trial> two;
+        two.push_back(std::move(found.front()));
+        two.push_back(std::move(*nearest));
+        return two;
+    }
+    return found;
+}
+
+bool can_be_built(const Trial& trial)
+{
+    return trial.excess == 0 && !has_crossings(trial.found.surface);
+}
+
+//! The best of one attempt, eased.
+std::optional<Trial> attempt(const Trials& trials, int number)
+{
+    std::vector<Trial> found = finalists(starts(trials, number));
+    if (found.empty()) {
+        return std::nullopt;
+    }
+    const long work = 6000L * trials.options.elements; // iterations times elements
+    const long more_work = 40000L * trials.options.elements;
+    for (Trial& trial : found) {
+        polish(trial, trials, stretch_price, work);
+    }
+    std::stable_sort(found.begin(), found.end(), [](const Trial& a, const Trial& b) {
+        return std::pair(has_crossings(a.found.surface), score(a, stretch_price)) <
+               std::pair(has_crossings(b.found.surface), score(b, stretch_price));
+    });
+    Trial& best = found.front();
+    if (!can_be_built(best)) {
+        polish(best, trials, 4 * stretch_price, more_work);
+    }
+    return std::move(best);
 }
 
 } // namespace
@@ -153,24 +226,22 @@ Expected<FoundNetwork> search_network(const TriangleMesh& target, const Element&
         return refuse("stopped");
     }
     Trials trials{tree, element, options};
-    std::vector<Trial> found = starts(trials);
-    if (found.empty()) {
+    constexpr int attempts = 3;
+    std::optional<Trial> best;
+    for (int k = 0; k < attempts && !(best && can_be_built(*best)); ++k) {
+        auto next = attempt(trials, k);
+        if (next && (!best || can_be_built(*next) || is_better(*next, *best))) {
+            best = std::move(next);
+        }
+        if (!tell("remeshing differently")) {
+            return refuse("stopped");
+        }
+    }
+    if (!best) {
         return refuse("no network of " + std::to_string(options.elements) +
                       " elements comes to rest on this target: try more elements");
     }
-    constexpr std::size_t finalists = 2;
-    const long work = 15000L * options.elements; // iterations times elements
-    found.resize(std::min(found.size(), finalists));
-    for (Trial& trial : found) {
-        polish(trial, trials, stretch_price, work);
-    }
-    std::stable_sort(found.begin(), found.end(), [](const Trial& a, const Trial& b) {
-        return std::pair(has_crossings(a.found.surface), score(a, stretch_price)) <
-               std::pair(has_crossings(b.found.surface), score(b, stretch_price));
-    });
-    Trial& best = found.front();
-    polish(best, trials, 4 * stretch_price, work);
-    FoundNetwork network = std::move(best.found);
+    FoundNetwork network = std::move(best->found);
     EmbedOptions exact = options.embedding;
     exact.start = Start::Edited;
     network.embedding = embed_in_place(network.surface, element, exact);

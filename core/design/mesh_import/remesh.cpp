@@ -35,6 +35,24 @@ void split_long(EditMesh& mesh, const MeshTree& target, double edge)
     }
 }
 
+//! Would the place of the vertex that \p h leaves be far from what is left? So limbs stay that are thinner than an
+//! edge is long.
+bool collapse_uncovers(const EditMesh& mesh, HalfedgeHandle h, double limit)
+{
+    const auto gone = mesh.from_vertex_handle(h);
+    const auto kept = mesh.to_vertex_handle(h);
+    const Vec3& p = mesh.point(gone);
+    for (const auto out : mesh.voh_range(gone)) {
+        const auto a = mesh.to_vertex_handle(out);
+        const auto b = mesh.to_vertex_handle(mesh.next_halfedge_handle(out));
+        if (a != kept && b != kept &&
+            (nearest_on_triangle(p, mesh.point(kept), mesh.point(a), mesh.point(b)) - p).norm() <= limit) {
+            return false;
+        }
+    }
+    return true;
+}
+
 //! Would the vertex that \p h leaves, moved to the other end, have a side longer than \p limit or too high a degree?
 bool collapse_spoils(const EditMesh& mesh, HalfedgeHandle h, double limit, int max_degree)
 {
@@ -57,12 +75,13 @@ bool collapse_spoils(const EditMesh& mesh, HalfedgeHandle h, double limit, int m
 //! Collapse \p e towards one of its ends, if that spoils nothing.
 bool collapse(EditMesh& mesh, EdgeHandle e, double limit, int max_degree)
 {
+    constexpr double cover_share = 0.25; // of the longest side
     for (int k = 0; k < 2; ++k) {
         const auto h = mesh.halfedge_handle(e, k);
         const auto gone = mesh.from_vertex_handle(h);
         const auto kept = mesh.to_vertex_handle(h);
         if (mesh.is_collapse_ok(h) && !collapse_spoils(mesh, h, limit, max_degree) &&
-            may_move(mesh, gone, mesh.point(kept), kept)) {
+            !collapse_uncovers(mesh, h, cover_share * limit) && may_move(mesh, gone, mesh.point(kept), kept)) {
             mesh.collapse(h);
             return true;
         }
@@ -113,10 +132,23 @@ int excess(int degree)
     return (degree - 6) * (degree - 6);
 }
 
+//! Do the triangles at \p e lie about in one plane? Across a crease a flip would cut through the solid.
+bool is_even(const EditMesh& mesh, EdgeHandle e)
+{
+    constexpr double least_cosine = 0.2;
+    const auto h = mesh.halfedge_handle(e, 0);
+    const Vec3& a = mesh.point(mesh.from_vertex_handle(h));
+    const Vec3 side = mesh.point(mesh.to_vertex_handle(h)) - a;
+    const auto [c, d] = opposite_vertices(mesh, e);
+    const Vec3 left = side.cross(mesh.point(c) - a);
+    const Vec3 right = (mesh.point(d) - a).cross(side);
+    return left.dot(right) > least_cosine * left.norm() * right.norm();
+}
+
 void equalise_degrees(EditMesh& mesh, double edge)
 {
     for (const auto e : mesh.edges()) {
-        if (!may_flip(mesh, e)) {
+        if (!may_flip(mesh, e) || !is_even(mesh, e)) {
             continue;
         }
         const auto h = mesh.halfedge_handle(e, 0);
@@ -150,7 +182,7 @@ void smooth(EditMesh& mesh, const MeshTree& target)
             normal += (q - mesh.point(v)).cross(r - mesh.point(v));
             ++count;
         }
-        if (count == 0 || normal.norm() == 0) {
+        if (count == 0 || normal.norm() == 0 || is_tip(mesh, v)) {
             continue;
         }
         normal.normalize();

@@ -1,5 +1,7 @@
 #include "core/design/mesh_import/remesh_mesh.h"
 
+#include <cmath>
+
 namespace rhombloom {
 
 using VertexHandle = EditMesh::VertexHandle;
@@ -97,6 +99,18 @@ bool may_move(const EditMesh& mesh, VertexHandle v, const Vec3& where, VertexHan
         }
     }
     return true;
+}
+
+bool is_tip(const EditMesh& mesh, VertexHandle v)
+{
+    constexpr double pointed = radians(100);
+    double left = two_pi;
+    for (const auto h : mesh.voh_range(v)) {
+        const Vec3 a = mesh.point(mesh.to_vertex_handle(h)) - mesh.point(v);
+        const Vec3 b = mesh.point(mesh.to_vertex_handle(mesh.next_halfedge_handle(h))) - mesh.point(v);
+        left -= std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+    return left > pointed;
 }
 
 } // namespace rhombloom

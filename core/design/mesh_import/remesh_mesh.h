@@ -40,4 +40,8 @@ bool may_flip(const EditMesh& mesh, EditMesh::EdgeHandle e);
 //! vanish? \p h invalid: none vanishes.
 bool may_move(const EditMesh& mesh, EditMesh::VertexHandle v, const Vec3& where, EditMesh::VertexHandle vanishing);
 
+//! \brief Is \p v the tip of a limb: 2 pi minus the angles there above 100 degrees? Moved along the surface, tips would
+//! slide down their limbs.
+bool is_tip(const EditMesh& mesh, EditMesh::VertexHandle v);
+
 } // namespace rhombloom

@@ -25,6 +25,41 @@ TriangleMesh sphere(double radius)
     return mesh;
 }
 
+//! A ball of radius 100 with a limb of radius 18 up to z = 400: a profile turned about z.
+TriangleMesh ball_with_limb()
+{
+    std::vector<std::pair<double, double>> profile; // radius, z
+    for (int k = 1; k <= 20; ++k) {
+        const double a = pi * (1 - k / 21.0);
+        profile.emplace_back(100 * std::sin(a), 100 * std::cos(a));
+    }
+    std::erase_if(profile, [](const auto& p) { return p.first < 18 && p.second > 0; });
+    for (double z = profile.back().second + 10; z < 395; z += 10) {
+        profile.emplace_back(18, z);
+    }
+    constexpr int around = 24;
+    TriangleMesh mesh;
+    for (const auto& [radius, z] : profile) {
+        for (int k = 0; k < around; ++k) {
+            mesh.points.emplace_back(radius * std::cos(two_pi * k / around), radius * std::sin(two_pi * k / around), z);
+        }
+    }
+    const int rings = static_cast<int>(profile.size());
+    const int bottom = rings * around;
+    mesh.points.emplace_back(0, 0, -100);
+    mesh.points.emplace_back(0, 0, 400);
+    for (int k = 0; k < around; ++k) {
+        const int n = (k + 1) % around;
+        mesh.triangles.push_back({bottom, n, k});
+        mesh.triangles.push_back({bottom + 1, (rings - 1) * around + k, (rings - 1) * around + n});
+        for (int r = 0; r + 1 < rings; ++r) {
+            mesh.triangles.push_back({r * around + k, r * around + n, (r + 1) * around + n});
+            mesh.triangles.push_back({r * around + k, (r + 1) * around + n, (r + 1) * around + k});
+        }
+    }
+    return mesh;
+}
+
 ImportedMesh imported_ball()
 {
     ImportOptions options;
@@ -89,6 +124,14 @@ TEST(Remesh, MeetsTheNumberOfEdgesAndKeepsTheGenus)
     const TriangleMesh mesh = with_edge_count(remesh(tree.mesh(), tree, options), tree, 150, options);
     EXPECT_NEAR(1.5 * static_cast<double>(mesh.triangles.size()), 150, 2);
     EXPECT_EQ(mesh.points.size() - mesh.triangles.size() / 2, 2U);
+}
+
+TEST(Remesh, KeepsALimbThinnerThanAnEdge)
+{
+    const MeshTree tree(ball_with_limb());
+    RemeshOptions options;
+    options.edge = 60;
+    EXPECT_GT(bounds(remesh(tree.mesh(), tree, options)).max().z(), 370);
 }
 
 TEST(Repair, LeavesASoundMeshAlone)
@@ -213,7 +256,7 @@ TEST(ImportMesh, KeepsTheDistanceInTheDesignFile)
     EXPECT_NEAR(distance->from_target_max, made.report.distance.from_target.max, 1e-3);
 }
 
-TEST(NetworkMoves, AFlipReplacesAnElementASplitAddsThreeATurnIsUndoneByATurn)
+TEST(NetworkMoves, AFlipReplacesAnElementASplitAddsThreeACollapseTakesThreeATurnIsUndone)
 {
     const TriangleMesh mesh = sphere(100);
     const MeshTree tree(mesh);
@@ -230,9 +273,31 @@ TEST(NetworkMoves, AFlipReplacesAnElementASplitAddsThreeATurnIsUndoneByATurn)
     EXPECT_EQ(edges(flipped).count(place), 0U);
     EXPECT_EQ(edges(flipped).size(), edges(plan).size());
     EXPECT_EQ(edges(carry_out({{Move::Kind::Split, place}}, plan)).size(), edges(plan).size() + 3);
+    const Plan fewer = carry_out({{Move::Kind::Collapse, place}}, plan);
+    EXPECT_EQ(edges(fewer).size(), edges(plan).size() - 3);
+    EXPECT_EQ(fewer.triangles.points.size(), plan.triangles.points.size() - 1);
+    EXPECT_EQ(fewer.middles.size(), fewer.triangles.triangles.size());
     const Plan turned = carry_out({{Move::Kind::Turn, place}}, plan);
     EXPECT_EQ(turned.flipped.count(place), 1U);
     EXPECT_TRUE(carry_out({{Move::Kind::Turn, place}}, turned).flipped.empty());
+}
+
+TEST(NetworkMoves, ElementsTurnedOverStayTheSameWhenCornersAreRenumbered)
+{
+    const TriangleMesh mesh = sphere(100);
+    const Triangle& last = mesh.triangles.back();
+    const Corners turned = std::minmax(last[0], last[1]);
+    const Plan plan{mesh, triangle_middles(mesh, MeshTree(mesh)), {turned}};
+    const Plan fewer =
+        carry_out({{Move::Kind::Collapse, std::minmax(mesh.triangles[0][0], mesh.triangles[0][1])}}, plan);
+    ASSERT_EQ(fewer.flipped.size(), 1U);
+    const auto [a, b] = *fewer.flipped.begin();
+    const std::set<std::array<double, 3>> before = {
+        {mesh.points[turned.first].x(), mesh.points[turned.first].y(), 0},
+        {mesh.points[turned.second].x(), mesh.points[turned.second].y(), 0}};
+    const auto& points = fewer.triangles.points;
+    EXPECT_EQ(before,
+              (std::set<std::array<double, 3>>{{points[a].x(), points[a].y(), 0}, {points[b].x(), points[b].y(), 0}}));
 }
 
 TEST(Decimate, KeepsTheTopologyAndPointsOfTheMesh)
