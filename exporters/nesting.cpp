@@ -143,10 +143,12 @@ Expected<void> check_fits(const Piece& piece, const NestOptions& options)
     }
     const Box box = box_of(piece.hull);
     const Vec2 size = box.max - box.min;
+    // Callers add to the margin what their outline strays: a tenth of a millimetre is what the user gave.
     return refuse("the outline is " + size_text(size.x(), size.y()) +
                   " as drawn and fits in no allowed direction on a sheet of " +
                   size_text(options.sheet_width, options.sheet_height) + " with a margin of " +
-                  to_text(options.margin) + " mm; take a larger sheet, a smaller margin or a smaller outline");
+                  to_fixed(options.margin, 1) + " mm; take a larger sheet, a smaller margin or a smaller outline" +
+                  (options.grain == Grain::Any ? "" : ", or let the copies turn (grain any)"));
 }
 
 //! \return how many copies the offcut took

@@ -83,6 +83,13 @@ TEST(Nesting, RefusesAPieceLargerThanTheSheetWithTheNumbers)
     ASSERT_FALSE(nesting);
     EXPECT_NE(nesting.error().message.find("700 x 500 mm"), std::string::npos) << nesting.error().message;
     EXPECT_NE(nesting.error().message.find("600 x 400 mm"), std::string::npos) << nesting.error().message;
+    EXPECT_EQ(nesting.error().message.find("turn"), std::string::npos) << nesting.error().message;
+    NestOptions fixed = sheet(400, 600, 2, 1); // the piece would fit turned
+    fixed.grain = Grain::Fixed;
+    fixed.margin = 6.374775;
+    const std::string refusal = nest(rectangle(500, 300), fixed).error().message;
+    EXPECT_NE(refusal.find("a margin of 6.4 mm"), std::string::npos) << refusal;
+    EXPECT_NE(refusal.find("let the copies turn"), std::string::npos) << refusal;
 }
 
 TEST(Nesting, RefusesAnOutlineThatCrossesItself)
