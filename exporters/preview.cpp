@@ -176,6 +176,71 @@ Expected<CompressedPreview> smallest_glb(const PreviewModel& model, const Previe
     return best;
 }
 
+//! The files' contents, each by itself.
+struct WrittenPreview
+{
+    PreviewEncoding encoding = PreviewEncoding::Merged;
+    Expected<CompressedPreview> compressed;
+    Expected<PreviewPage> page;
+    Expected<std::string> png;
+    std::optional<Expected<std::string>> comparison; //!< with the target, when there is one
+    std::string plain;
+};
+
+WrittenPreview written(const PreviewModel& model, const PreviewSteps& steps, const Element& element,
+                       const PreviewOptions& options, PreviewEncoding encoding)
+{
+    WrittenPreview w;
+    w.encoding = encoding;
+    const std::array<std::function<void()>, 5> files = {
+        [&] { w.compressed = smallest_glb(model, options, w.encoding); },
+        [&] { w.png = picture_png(model.bent, thumbnail_options(options)); },
+        [&] { w.page = preview_page(model, steps, element, options); },
+        [&] { w.plain = plain_glb(model, options); },
+        [&] {
+            if (options.target) {
+                w.comparison = comparison_png(model.bent, *options.target, thumbnail_options(options));
+            }
+        },
+    };
+    parallel_tasks(default_threads(), static_cast<int>(files.size()), [&](int k) { files[k](); });
+    return w;
+}
+
+Expected<PreviewFiles> collected(WrittenPreview w, const BendingReport& bending)
+{
+    if (!w.compressed) {
+        return tl::make_unexpected(w.compressed.error());
+    }
+    if (!w.page) {
+        return tl::make_unexpected(w.page.error());
+    }
+    for (const auto* picture : {&w.png, w.comparison ? &*w.comparison : &w.png}) {
+        if (!*picture) {
+            return tl::make_unexpected(picture->error());
+        }
+    }
+    PreviewFiles result;
+    PreviewReport& report = result.report;
+    report.bending = bending;
+    report.encoding = w.encoding;
+    report.modes = w.encoding == PreviewEncoding::BendingModes ? w.compressed->modes : 0;
+    report.max_position_error_mm = w.compressed->max_error_mm;
+    report.html_position_error_mm = w.page->max_error_mm;
+    report.glb_bytes = w.compressed->bytes.size();
+    report.plain_bytes = w.plain.size();
+    report.html_bytes = w.page->html.size();
+    report.thumbnail_bytes = w.png->size();
+    result.files["preview.glb"] = std::move(w.compressed->bytes);
+    result.files["preview-plain.glb"] = std::move(w.plain);
+    result.files["preview.html"] = std::move(w.page->html);
+    result.files["thumbnail.png"] = std::move(*w.png);
+    if (w.comparison) {
+        result.files["target.png"] = std::move(**w.comparison);
+    }
+    return result;
+}
+
 } // namespace
 
 std::vector<ElementLabel> element_labels(const Surface& surface, const AssemblyPlan& plan)
@@ -218,57 +283,9 @@ Expected<PreviewFiles> preview_files(const Replay& replay, const AssemblyPlan& p
     PreviewModel model{std::move(*bent),  {},           element_labels(replay.surface, plan), replay.surface.components,
                        element.thickness, options.title};
     const Choice choice = choose_modes(model, *steps, element, hooks, options);
-    PreviewEncoding encoding = choice.encoding;
     model.bent.report = measure_bending(model.bent, replay.surface, element, hooks);
     model.bent.report.max_corner_error_mm = std::max(model.bent.report.max_corner_error_mm, choice.max_corner_error_mm);
-    Expected<CompressedPreview> compressed;
-    Expected<PreviewPage> page;
-    Expected<std::string> png;
-    std::string plain;
-    Expected<std::string> comparison;
-    const std::array<std::function<void()>, 5> files = {
-        [&] { compressed = smallest_glb(model, options, encoding); },
-        [&] { png = picture_png(model.bent, thumbnail_options(options)); },
-        [&] { page = preview_page(model, *steps, element, options); },
-        [&] { plain = plain_glb(model, options); },
-        [&] {
-            if (options.target) {
-                comparison = comparison_png(model.bent, *options.target, thumbnail_options(options));
-            }
-        },
-    };
-    parallel_tasks(default_threads(), static_cast<int>(files.size()), [&](int k) { files[k](); });
-    if (!compressed) {
-        return tl::make_unexpected(compressed.error());
-    }
-    if (!page) {
-        return tl::make_unexpected(page.error());
-    }
-    if (!png) {
-        return tl::make_unexpected(png.error());
-    }
-    if (!comparison) {
-        return tl::make_unexpected(comparison.error());
-    }
-    PreviewFiles result;
-    PreviewReport& report = result.report;
-    report.bending = model.bent.report;
-    report.encoding = encoding;
-    report.modes = encoding == PreviewEncoding::BendingModes ? compressed->modes : 0;
-    report.max_position_error_mm = compressed->max_error_mm;
-    report.html_position_error_mm = page->max_error_mm;
-    report.glb_bytes = compressed->bytes.size();
-    report.plain_bytes = plain.size();
-    report.html_bytes = page->html.size();
-    report.thumbnail_bytes = png->size();
-    result.files["preview.glb"] = compressed->bytes;
-    result.files["preview-plain.glb"] = std::move(plain);
-    result.files["preview.html"] = std::move(page->html);
-    result.files["thumbnail.png"] = std::move(*png);
-    if (options.target) {
-        result.files["target.png"] = std::move(*comparison);
-    }
-    return result;
+    return collected(written(model, *steps, element, options, choice.encoding), model.bent.report);
 }
 
 } // namespace rhombloom
