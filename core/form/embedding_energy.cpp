@@ -50,16 +50,11 @@ bool is_free(const HingeLaw& law, const HingePoints& p)
 HingeResponse hinge_response(const HingeLaw& law, const HingePoints& points, std::size_t k,
                              const HessianOptions& options)
 {
-    if (options.hinges == nullptr && options.hinge_blur == 0 && is_free(law, points)) {
+    if (options.hinges == nullptr && is_free(law, points)) {
         return {};
     }
-    const double angle = options.hinges == nullptr ? hinge_angle(points) : 0;
-    HingeResponse response = options.hinges == nullptr ? hinge_response(law, angle) : (*options.hinges)[k];
-    if (options.hinge_blur > 0) {
-        const double passed = angle / std::sqrt(angle * angle + options.hinge_blur * options.hinge_blur);
-        const double share = std::max(options.hinge_floor, 0.5 * (1 - passed));
-        response.stiffness += 2 * law.concavity_weight * share - (angle < 0 ? 2 * law.concavity_weight : 0);
-    }
+    HingeResponse response =
+        options.hinges == nullptr ? hinge_response(law, hinge_angle(points)) : (*options.hinges)[k];
     response.moment *= 1 - options.damping;
     return response;
 }

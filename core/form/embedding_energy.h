@@ -37,10 +37,6 @@ struct HessianOptions
     //! the curvature of the hinge angles. Elements in equilibrium are prestressed, so this part carries the bending
     //! stiffness and must not be removed for good.
     double damping = 0;
-    //! Radians over which the stiffness of a hinge passes from the concave to the convex value; 0: the exact jump.
-    double hinge_blur = 0;
-    //! Stiffness of every hinge, at least, as a share of that of concave ones.
-    double hinge_floor = 0;
     //! What each hinge's moment and stiffness count as, instead of their own; null: their own.
     const std::vector<HingeResponse>* hinges = nullptr;
 };

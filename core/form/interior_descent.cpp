@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/form/minimise.h"
 #include "core/form/newton_system.h"
@@ -12,15 +11,14 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::VectorXd;
 
-constexpr int max_iterations = 30;
+constexpr int max_iterations = 60;
 constexpr double first_width = 0.3;       // of the mean hinge angle
 constexpr double largest_move = 1;        // la
 constexpr double to_boundary = 0.99;      // share of the way to a slack or force of zero
 constexpr double largest_imbalance = 100; // of a hinge's slack times force against the mean
-constexpr double smallest_step = 1e-3;    // share of the direction; below, the iteration is stuck
-constexpr double first_floor = 1e-4;
-constexpr double largest_floor = 0.5;
-constexpr int patience = 3; // steps with a floor: so far from the minimum the forces run ahead of the shape
+constexpr double smallest_step = 0.02;    // share of the direction; below, the Hessian is nearly indefinite
+constexpr double arrived = 1e-5;          // gradient; below, it is known which hinges are concave
+constexpr double lag = 2;                 // power of the residual that slack times force may not fall behind
 
 // The share of the direction that keeps every value positive.
 double share_to_zero(const ArrayXd& values, const ArrayXd& steps)
@@ -76,13 +74,13 @@ public:
         return iterate.gradient - spread(force_ + 2 * weight_ * angle_.min(0.0));
     }
 
-    // How the hinges enter the Hessian; each keeps a share of \p floor of a concave one's stiffness.
-    const std::vector<HingeResponse>& responses(double floor)
+    // How the hinges enter the Hessian.
+    const std::vector<HingeResponse>& responses()
     {
         for (std::size_t k = 0; k < responses_.size(); ++k) {
             responses_[k] = hinge_response(terms_.hinge_law, angle_[k]);
             responses_[k].moment -= force_[k] + 2 * weight_ * std::min(0.0, angle_[k]);
-            responses_[k].stiffness += 2 * weight_ * (std::max(share_[k], floor) - (angle_[k] < 0 ? 1.0 : 0.0));
+            responses_[k].stiffness += 2 * weight_ * (share_[k] - (angle_[k] < 0 ? 1.0 : 0.0));
         }
         return responses_;
     }
@@ -98,14 +96,20 @@ public:
         return step;
     }
 
-    // Mehrotra's target: the product that the direction to zero leaves, and its second-order error.
-    ArrayXd corrected_target() const
+    // Mehrotra's target: the product that the direction to zero leaves, and its second-order error. While the shape is
+    // far from equilibrium, the products do not go ahead of it.
+    ArrayXd corrected_target(double residual_norm)
     {
         const double mean = mean_product();
         const double left = ((slack_ + share_to_zero(slack_, slack_step_) * slack_step_) *
                              (force_ + share_to_zero(force_, force_step_) * force_step_))
                                 .mean();
-        return std::pow(left / mean, 3) * mean - slack_step_ * force_step_;
+        if (first_residual_ == 0) {
+            first_residual_ = residual_norm;
+            first_product_ = mean;
+        }
+        const double behind = first_product_ * std::pow(residual_norm / first_residual_, lag);
+        return std::max(std::pow(left / mean, 3) * mean, std::min(mean, behind)) - slack_step_ * force_step_;
     }
 
     double longest_step() const { return std::min(1.0, to_boundary * share_to_zero(slack_, slack_step_)); }
@@ -143,43 +147,26 @@ private:
 
     const EmbeddingTerms& terms_;
     double weight_;
+    double first_residual_ = 0;
+    double first_product_ = 0;
     Eigen::Matrix<double, 12, Eigen::Dynamic> gradients_;
     std::vector<HingeResponse> responses_;
     ArrayXd angle_, slack_, force_, share_, gap_, slack_step_, force_step_;
 };
 
-// Factor with the smallest floor that makes the matrix positive definite: single vertices of a flat region would like
-// to pop out, and only the stiffness of hinges keeps them from it.
-bool factor(NewtonSystem& system, ConcaveHinges& hinges, const Iterate& iterate, double& floor)
+// One step of Mehrotra's predictor and corrector, if the Hessian with that damping is good for one.
+bool interior_step(NewtonSystem& system, ConcaveHinges& hinges, Iterate& iterate, const EmbeddingTerms& terms,
+                   double damping)
 {
-    double damping = 0;
-    for (bool first = true;; first = false) {
-        HessianOptions options;
-        options.damping = damping;
-        options.hinges = &hinges.responses(floor);
-        if (system.factor(iterate, options)) {
-            floor = !first ? floor : floor <= first_floor ? 0 : floor / 8;
-            return true;
-        }
-        if (floor >= largest_floor && damping == 1) {
-            return false;
-        }
-        damping = floor < largest_floor ? 0 : std::min(1.0, 0.1 + 4 * damping);
-        floor = std::clamp(8 * floor, first_floor, largest_floor);
-    }
-}
-
-// One step of Mehrotra's predictor and corrector; false when the iteration is stuck.
-bool interior_step(const EmbeddingTerms& terms, NewtonSystem& system, ConcaveHinges& hinges, Iterate& iterate,
-                   double& floor)
-{
-    hinges.look(iterate.x);
-    if (!factor(system, hinges, iterate, floor)) {
+    HessianOptions options;
+    options.damping = damping;
+    options.hinges = &hinges.responses();
+    if (!system.factor(iterate, options)) {
         return false;
     }
     const VectorXd residual = hinges.residual(iterate);
     hinges.direction(system, residual, ArrayXd::Zero(terms.hinges.size()));
-    const VectorXd step = hinges.direction(system, residual, hinges.corrected_target());
+    const VectorXd step = hinges.direction(system, residual, hinges.corrected_target(residual.norm()));
     const double move = std::sqrt(step.reshaped(3, terms.vertex_count).colwise().squaredNorm().maxCoeff());
     const double share = std::min(hinges.longest_step(), largest_move / move);
     if (!(share > smallest_step)) {
@@ -188,6 +175,20 @@ bool interior_step(const EmbeddingTerms& terms, NewtonSystem& system, ConcaveHin
     hinges.advance(share);
     iterate = iterate_at(terms, iterate.x + share * step);
     return std::isfinite(iterate.energy);
+}
+
+// A step with as little damping as will do; false when the iteration is stuck. An edge that is shorter than in
+// equilibrium by a thousandth has lost its tension, and with it what holds its ends in place; a damped step gives it
+// back.
+bool damped_step(NewtonSystem& system, ConcaveHinges& hinges, Iterate& iterate, const EmbeddingTerms& terms)
+{
+    hinges.look(iterate.x);
+    for (const double damping : {0.0, 0.1, 0.3, 1.0}) {
+        if (interior_step(system, hinges, iterate, terms, damping)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 } // namespace
@@ -201,25 +202,14 @@ MinimiseResult interior_descent(const EmbeddingTerms& terms, NewtonSystem& syste
     }
     Iterate now = iterate;
     ConcaveHinges hinges(terms, now.x);
-    double floor = 0;
-    int supported = 0;
-    while (!should_stop(now, options, result) && result.iterations < max_iterations) {
-        if (!interior_step(terms, system, hinges, now, floor)) {
-            break;
-        }
-        supported += floor > 0;
+    while (now.gradient_norm() > arrived && !should_stop(now, options, result) && result.iterations < max_iterations &&
+           damped_step(system, hinges, now, terms)) {
         ++result.iterations;
-        const bool arrived = now.gradient_norm() <= options.tolerance;
-        if (now.energy < iterate.energy || (arrived && now.energy < iterate.energy * (1 + 1e-12))) {
+        if (now.energy < iterate.energy) {
             iterate = now;
         }
-        if (supported > patience && !arrived) {
-            break;
-        }
     }
-    if (result.reason == StopReason::Converged && iterate.gradient_norm() > options.tolerance) {
-        result.reason = StopReason::Stalled; // in an equilibrium above the best shape so far
-    }
+    should_stop(iterate, options, result);
     return result;
 }
 

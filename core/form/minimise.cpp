@@ -6,8 +6,6 @@ namespace rhombloom {
 
 namespace {
 
-constexpr int smallest_interior = 10000; // vertices; below, descent alone is as fast
-
 // For a method that begins after \p done iterations.
 MinimiseOptions rest_of(const MinimiseOptions& options, int done)
 {
@@ -56,11 +54,8 @@ MinimiseResult minimise(const EmbeddingTerms& terms, Iterate& iterate, const Min
         return result;
     }
     NewtonSystem system(terms, options.threads);
-    if (terms.vertex_count >= smallest_interior) {
-        go_on([&](const MinimiseOptions& rest) { return interior_descent(terms, system, iterate, rest); });
-    }
     if (is_large(terms)) {
-        go_on([&](const MinimiseOptions& rest) { return blurred_descent(terms, system, iterate, rest); });
+        go_on([&](const MinimiseOptions& rest) { return interior_descent(terms, system, iterate, rest); });
     }
     go_on([&](const MinimiseOptions& rest) { return newton_with(system, terms, iterate, rest); });
     return result;

@@ -35,7 +35,7 @@ class NewtonSystem;
 bool is_large(const EmbeddingTerms& terms);
 
 //! \brief Minimise the energy from \p iterate, leaving the best one there: quasi_newton() while far away, on large
-//! surfaces interior_descent() and blurred_descent(), newton() in the end.
+//! surfaces interior_descent(), newton() in the end.
 MinimiseResult minimise(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options);
 
 //! \brief Newton's method with the exact Hessian where that is positive definite (NewtonSystem::direction()).
@@ -48,17 +48,10 @@ MinimiseResult newton_with(NewtonSystem& system, const EmbeddingTerms& terms, It
 //! surface it is seeded with the Laplacian of the springs, as Liu et al. 2017 do, which takes care of the long waves.
 MinimiseResult quasi_newton(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options);
 
-//! \brief Limited-memory BFGS seeded with a Hessian that is factored again now and then, until it is settled which
-//! hinges are concave; then the result is Stalled.
-//! \details Newton's method sees only the hinges that are concave now, runs into those that become so, and gains a few
-//! rows of elements per factorisation. In the seed hinges near flat therefore have part of the concave ones' stiffness.
-MinimiseResult blurred_descent(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& iterate,
-                               const MinimiseOptions& options);
-
-//! \brief A primal-dual interior-point method for the concave hinges; the result is Stalled where it gets no farther.
-//! \details On a large surface whole regions are nearly flat, and which of their hinges are concave is open to the
-//! last. Slack and moment of every hinge are unknowns of their own, and how much of each bears load is settled for all
-//! of them together (Mehrotra 1992), in a dozen factorisations whatever the size.
+//! \brief A primal-dual interior-point method for the concave hinges, until it is known which these are; then the
+//! result is Stalled. \details On a large surface whole regions are nearly flat, and which of their hinges are concave
+//! is open to the last. Slack and moment of every hinge are unknowns of their own, and how much of each bears load is
+//! settled for all of them together (Mehrotra 1992), in a dozen factorisations whatever the size.
 MinimiseResult interior_descent(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& iterate,
                                 const MinimiseOptions& options);
 

@@ -49,17 +49,6 @@ VectorXd NewtonSystem::direction(const Iterate& iterate)
     return -iterate.gradient;
 }
 
-bool NewtonSystem::factor_blurred(const Iterate& iterate, HessianOptions options)
-{
-    while (!factor(iterate, options)) {
-        if (options.damping == 1) {
-            return false;
-        }
-        options.damping = std::min(1.0, 0.1 + 4 * options.damping);
-    }
-    return true;
-}
-
 VectorXd NewtonSystem::solve(const VectorXd& right_side) const
 {
     VectorXd solution = VectorXd::Zero(right_side.size());

@@ -17,10 +17,6 @@ public:
     //! factorisation succeeds, lowered after every success.
     Eigen::VectorXd direction(const Iterate& iterate);
 
-    //! \brief Factor a Hessian whose hinges change their stiffness gradually (HessianOptions), damped if need be.
-    //! \return false if nothing made it positive definite.
-    bool factor_blurred(const Iterate& iterate, HessianOptions options);
-
     //! \brief Factor the Hessian as \p options say; false when it is not positive definite.
     bool factor(const Iterate& iterate, const HessianOptions& options);
 

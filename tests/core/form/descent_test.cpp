@@ -66,23 +66,6 @@ TEST(LimitedMemory, WithTheInverseHessianAsSeedIsNewtonsMethod)
     EXPECT_LT((d + gradient.cwiseQuotient(stiffness)).norm(), 1e-15);
 }
 
-TEST(EmbeddingHessian, BlurLeavesHingesFarFromFlatAsTheyAre)
-{
-    Surface surface = shapes::ball_surface(0);
-    ASSERT_TRUE(embed(surface, {}).converged); // now all its hinges are convex by 20 degrees and more
-    const EmbeddingTerms terms = terms_of(surface);
-    HessianPattern pattern;
-    BlockMatrix exact = hessian_matrix(terms, pattern);
-    BlockMatrix blurred = exact;
-    BlockMatrix floored = exact;
-    embedding_hessian(terms, pattern, positions(surface), {}, exact);
-    embedding_hessian(terms, pattern, positions(surface), {0, 1e-5, 0}, blurred);
-    embedding_hessian(terms, pattern, positions(surface), {0, 1e-5, 0.5}, floored);
-    const auto map = [](const BlockMatrix& m) { return Eigen::Map<const VectorXd>(m.value.data(), m.value.size()); };
-    EXPECT_LT((map(blurred) - map(exact)).norm(), 1e-6 * map(exact).norm());
-    EXPECT_GT((map(floored) - map(exact)).norm(), 1e-3 * map(exact).norm());
-}
-
 // On a surface that counts as large the same shape has to come out by the other way.
 TEST(Minimise, LargeSurfacesConvergeInFewIterations)
 {
@@ -104,10 +87,27 @@ TEST(InteriorDescent, NeedsADozenFactorisations)
     ASSERT_EQ(quasi_newton(terms, iterate, {}).reason, StopReason::Stalled);
     NewtonSystem system(terms, 1);
     const MinimiseResult result = interior_descent(terms, system, iterate, {});
-    EXPECT_EQ(result.reason, StopReason::Converged);
+    EXPECT_EQ(result.reason, StopReason::Stalled); // the rest is for Newton's method
     EXPECT_LE(result.iterations, 15);
-    EXPECT_LE(iterate.gradient_norm(), 1e-9);
+    EXPECT_LE(iterate.gradient_norm(), 1e-5);
     EXPECT_NEAR(iterate.energy, 229.2594380267, 1e-8);
+}
+
+// After more quasi-Newton steps some edges happen to be without tension, and the Hessian is indefinite.
+TEST(InteriorDescent, FindsItsWayWhereEdgesAreSlack)
+{
+    const Surface surface = shapes::ball_surface(4);
+    const EmbeddingTerms terms = terms_of(surface);
+    Iterate iterate = iterate_at(terms, positions(surface));
+    ASSERT_EQ(quasi_newton(terms, iterate, {}).reason, StopReason::Stalled);
+    NewtonSystem system(terms, 1);
+    for (int k = 0; k < 3; ++k) {
+        ASSERT_EQ(quasi_newton(terms, iterate, {}).reason, StopReason::Stalled);
+    }
+    EXPECT_FALSE(system.factor(iterate, {}));
+    interior_descent(terms, system, iterate, {});
+    EXPECT_LE(iterate.gradient_norm(), 1e-5);
+    EXPECT_NEAR(iterate.energy, 229.2594380267, 1e-6);
 }
 
 TEST(InteriorDescent, NeverLeavesAWorseShape)
