@@ -133,6 +133,42 @@ await shot('defect');
 await click(page, '[data-menu=overlay]');
 await page.locator('.menu button', { hasText: 'Sides' }).click();
 
+// Drawing a layout leaves the view as it was; the narrow rest of the stage still shows all of it.
+const camera = () => page.evaluate(() => { const c = window.studio.view.camera; return [...c.position.toArray(), c.view?.enabled ? 1 : 0]; });
+const stood = await camera();
+await page.evaluate(() => window.studio.layouts.open(-1));
+await page.waitForFunction(() => window.studio.layouts.works, null, { timeout: 30000 });
+const drawn = await page.evaluate(() => {
+  const { view } = window.studio, stage = view.canvas.getBoundingClientRect(), left = document.getElementById('layout').getBoundingClientRect().right;
+  view.camera.updateMatrixWorld();
+  return [0, 1, 2, 3].map(v => view.project(view.vertex(v))).every(p => p.x > left && p.x < stage.right && p.y > stage.top && p.y < stage.bottom);
+});
+expect(drawn, 'the element drawn is seen whole beside the drawing');
+await click(page, '[data-do=close-layout]');
+const stands = await camera();
+expect(stands.every((x, k) => Math.abs(x - stood[k]) < 0.01), `the view is as it was: ${stood} ${stands}`);
+
+// In German too the reasons are told in one language.
+await click(page, '[data-do=language]');
+await page.evaluate(() => window.studio.store.apply({ op: 'place', id: 'x', shape: 'nonsense' }));
+expect(/^Schritt \d+: Die Form „nonsense“/.test(await page.textContent('#notice')), 'a reason in German: ' + await page.textContent('#notice'));
+await click(page, '[data-do=language]');
+
+// The element: half as large, and the design with it.
+const lengths = async () => (await state(page)).operations.filter(op => op.by_mm).map(op => Math.hypot(...op.by_mm));
+const long = await lengths();
+await click(page, '[data-do=piece]');
+for (const [name, value] of [['la_mm', '40'], ['lb_mm', '44']]) await page.fill(`dialog [name=${name}]`, value);
+await click(page, '[data-do=apply-piece]');
+await page.waitForTimeout(100);
+await idle(page);
+const halved = await lengths();
+expect((await state(page)).element.la_mm === 40 && halved.every((l, k) => Math.abs(2 * l - long[k]) < 1e-3), `everything is half as long: ${long} ${halved}`);
+await click(page, '[data-do=undo]');
+await page.waitForTimeout(100);
+await idle(page);
+expect((await state(page)).element.la_mm === 80, 'the element as it was');
+
 // Fabricate, look, download.
 await click(page, '[data-do=make]');
 await page.waitForSelector('[data-do=start]');

@@ -10,8 +10,9 @@ namespace rhombloom::studio {
 namespace {
 
 constexpr std::size_t max_body = 8'000'000;
-constexpr int seconds_to_arrive = 5;
-constexpr int threads = 32; // a browser opens up to six connections at a time
+constexpr int seconds_to_arrive = 5; // of each piece
+// A browser opens up to six connections at a time; but one that sends a byte now and then holds its thread.
+constexpr int threads = 256;
 // Else the rest of a request that was refused early, its body for example, would be read as the next request.
 constexpr std::size_t requests_per_connection = 1;
 

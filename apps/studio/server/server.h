@@ -17,7 +17,7 @@ struct ServerOptions
 };
 
 //! \brief Serve the studio on 127.0.0.1 until the program is stopped.
-//! \details Every request passes the Guard first; bodies of at most 8 MB, five seconds for a request to arrive.
+//! \details Every request passes the Guard first; bodies of at most 8 MB, five seconds of silence while a request arrives.
 Expected<void> serve(Studio& studio, const ServerOptions& options);
 
 //! \brief The page's files from \p folder; the refusal says how to build them.

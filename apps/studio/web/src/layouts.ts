@@ -1,6 +1,7 @@
 // The layout editor: elements drawn in the plane, joined side to side, seen in 3D at once (paper, Sec. 4.4).
 import * as api from './api';
 import { button, fill, h } from './dom';
+import { reason } from './reasons';
 import type { Store } from './store';
 import type { View } from './view';
 import { t } from './words';
@@ -34,9 +35,12 @@ export class Layouts {
   private said = '';
   private bad = false;
   private works = false;
+  private back: (() => void) | null = null; // to where the camera stood before
   private readonly panel = document.getElementById('layout')!;
 
-  constructor(private readonly store: Store, private readonly view: View, private readonly done: () => void) {}
+  constructor(private readonly store: Store, private readonly view: View, private readonly done: () => void) {
+    addEventListener('resize', () => { if (this.active) this.makeRoom(); });
+  }
 
   get active(): boolean {
     return !this.panel.hidden;
@@ -55,8 +59,9 @@ export class Layouts {
     this.chosen = -1;
     this.panel.hidden = false;
     document.getElementById('hint')!.hidden = true;
-    this.view.cover(0.58);
+    if (!this.back) this.back = this.view.remember();
     this.build();
+    this.makeRoom();
     if (this.elements.length === 0) this.add();
     this.changed();
   }
@@ -64,10 +69,19 @@ export class Layouts {
   close(): void {
     this.panel.hidden = true;
     document.getElementById('hint')!.hidden = false;
-    this.view.cover(0);
+    this.view.cover(0, 0);
     ++this.asked;
     this.view.show(this.store.geometry);
+    this.back?.();
+    this.back = null;
     this.done();
+  }
+
+  // The scene is seen beside the drawing, or below it on a small screen.
+  private makeRoom(): void {
+    const panel = this.panel.getBoundingClientRect(), stage = this.panel.parentElement!.getBoundingClientRect();
+    const wide = panel.width < stage.width - 1;
+    this.view.cover(wide ? panel.width / stage.width : 0, wide ? 0 : panel.height / stage.height);
   }
 
   private build(): void {
@@ -272,7 +286,7 @@ export class Layouts {
       this.view.fit();
     } catch (problem) {
       if (number !== this.asked) return;
-      this.said = problem instanceof Error ? problem.message : '';
+      this.said = problem instanceof Error ? reason(problem.message) : '';
       this.bad = this.joins.length > 0;
     }
     this.draw();
@@ -280,7 +294,9 @@ export class Layouts {
 
   private async place(): Promise<void> {
     const id = this.store.freshId(this.store.state.parts.length === 0 ? 'body' : 'layout');
-    if (await this.store.apply(this.operation(id))) this.close();
+    if (!await this.store.apply(this.operation(id))) return;
+    this.close();
+    this.view.fit();
   }
 
   private async save(): Promise<void> {

@@ -22,14 +22,20 @@ function say(text: string, kind: 'info' | 'error' = 'info'): void {
   quiet = window.setTimeout(() => { notice.hidden = true; }, kind === 'error' ? 9000 : 5000);
 }
 
+const firstSteps = ['Click a shape in the library, or drag it into the view.',
+  'Drag a second shape so that it reaches into the first, step through the ways to join them, and join.',
+  'Choose Pull, press on a vertex and drag: a limb grows.', 'Open makes room for the lamp holder, the cable and the bulb.',
+  'Fabricate makes the kit. Everything is saved as you go; every step can be undone or changed in the history.'];
+
 function help(): void {
   const keys: [string, string][] = [['V  E  O  F', `${t('Select')}, ${t('Pull')}, ${t('Open')}, ${t('Flip')}`], ['S', t('Symmetric')], ['G  R', `${t('Move')}, ${t('Turn')}`],
     ['Shift', `${t('Along the normal')}: ${t('hold Shift while pulling')}`], ['←  →', t('Next and previous way to join')], ['Enter', t('Join')], ['Esc', t('Leave')],
     ['Delete', t('Delete the chosen part')], ['Ctrl+Z', t('Undo')], ['Ctrl+Shift+Z', t('Redo')], ['Home', t('Everything fits the screen')], ['1  2  3', t('Front, side, top')],
     [t('drag, two fingers, arrow keys'), t('Turn the view')], [t('right drag, two fingers'), t('Shift the view')], [t('wheel, pinch, + and -'), t('Zoom')]];
   const dialog = h('dialog', { class: 'small', 'aria-label': t('Help') });
-  dialog.append(h('div', {}, h('div', { class: 'head' }, h('strong', {}, t('Keyboard')), h('span', { class: 'grow' }), button(t('Close'), 'remove', () => dialog.close())),
-    h('div', { class: 'body keys' }, ...keys.flatMap(([key, text]) => [h('kbd', {}, key), h('span', {}, text)]))));
+  dialog.append(h('div', {}, h('div', { class: 'head' }, h('strong', {}, t('Help')), h('span', { class: 'grow' }), button(t('Close'), 'remove', () => dialog.close())),
+    h('div', { class: 'body' }, h('h2', {}, t('First steps')), h('ol', { class: 'steps' }, ...firstSteps.map(step => h('li', {}, t(step)))),
+      h('h2', {}, t('Keyboard')), h('div', { class: 'keys' }, ...keys.flatMap(([key, text]) => [h('kbd', {}, key), h('span', {}, text)])))));
   dialog.addEventListener('close', () => dialog.remove());
   $('dialog').append(dialog);
   dialog.showModal();

@@ -1,6 +1,7 @@
 // Fabricating: choices, progress, then the kit's sheets, booklet and player.
 import * as api from './api';
 import { button, fill, h } from './dom';
+import { reason } from './reasons';
 import type { Store } from './store';
 import { number, t } from './words';
 
@@ -11,6 +12,10 @@ interface KitState {
 }
 
 const pollEvery = 300; // ms
+
+// The operation being carried out is named in the program's own words; its number says as much.
+const doing = (text: string) => t(text.replace(/^(\d+\/\d+) .*/, '$1'));
+
 type Tab = 'Sheets' | 'Booklet' | 'Player' | 'Files';
 
 // A cut file on the screen: hairlines, which lasers want, are drawn so wide that they can be seen.
@@ -32,8 +37,14 @@ export class Making {
   constructor(private readonly store: Store) {}
 
   async open(): Promise<void> {
-    const kit = await api.get<KitState>('/api/kit');
-    if (this.choices.materials.length === 0) this.choices = await api.get('/api/choices');
+    let kit: KitState;
+    try {
+      kit = await api.get<KitState>('/api/kit');
+      if (this.choices.materials.length === 0) this.choices = await api.get('/api/choices');
+    } catch (problem) {
+      this.store.explain(problem);
+      return;
+    }
     this.dialog?.remove();
     const dialog = this.dialog = h('dialog', { 'aria-label': t('Fabricate') });
     document.getElementById('dialog')!.append(dialog);
@@ -60,9 +71,11 @@ export class Making {
       h('button', { type: 'button', class: fresh ? 'quiet' : 'main', 'data-do': 'start', disabled: kit.running, onclick: () => void this.start() }, t('Make the kit')),
       h('span', { class: 'grow' }), button(t('Close'), 'remove', () => this.dialog?.close(), { 'data-do': 'close' }));
     const body = h('div', { class: 'body' });
-    if (kit.running) fill(body, h('p', { class: 'progress', role: 'status' }, h('span', { class: 'spinner' }), `${t('Making')}: ${kit.doing}`));
-    else if (kit.error) fill(body, h('p', { class: 'bad', role: 'alert' }, kit.error));
+    if (kit.running) fill(body, h('p', { class: 'progress', role: 'status' }, h('span', { class: 'spinner' }), `${t('Making')}: ${doing(kit.doing)}`));
+    else if (kit.error) fill(body, h('p', { class: 'bad', role: 'alert' }, reason(kit.error)));
     else if (ready) fill(body, ...this.content(kit));
+    else fill(body, h('p', {}, t('Makes the sheets to cut, the booklet that shows every step, a film of the assembly and everything else as one file to download.')));
+    if (ready && !kit.error && !fresh) body.prepend(h('p', { class: 'bad', role: 'status' }, t('The design has changed since this kit was made.')));
     const bar = ready && !kit.error ? h('div', { class: 'head', role: 'tablist' }, ...tabs, h('span', { class: 'grow' }), this.summary(kit),
       h('a', { href: `/kit/${kit.id}/kit.zip`, download: 'kit.zip' }, h('button', { type: 'button', class: 'main', 'data-do': 'download', tabindex: -1 }, t('Download kit')))) : null;
     fill(this.dialog, h('div', {}, head, bar, body));
@@ -89,11 +102,24 @@ export class Making {
       await api.post('/api/fabricate', { revision: this.store.state.revision, ...(material && { material }), ...(machine && { machine }), paper });
       await this.follow();
     } catch (problem) {
-      this.store.explain(problem);
+      this.fail(problem);
     }
   }
 
+  // The dialog covers the notices of the page.
+  private fail(problem: unknown): void {
+    this.show({ running: false, doing: '', error: this.store.explanation(problem) });
+  }
+
   private async follow(): Promise<void> {
+    try {
+      await this.poll();
+    } catch (problem) {
+      this.fail(problem);
+    }
+  }
+
+  private async poll(): Promise<void> {
     for (;;) {
       const kit = await api.get<KitState>('/api/kit');
       this.show(kit);

@@ -5,6 +5,8 @@ import { bounds } from './geometry';
 import { historyPanel } from './history';
 import { overlayLimits, type Overlay } from './colours';
 import type { Layouts } from './layouts';
+import { pieceRow } from './piece';
+import { reason } from './reasons';
 import type { Store, Symmetry } from './store';
 import type { Tool, Tools } from './tools';
 import type { View } from './view';
@@ -35,6 +37,7 @@ export class Panels {
   private pictures = new Map<string, string>();
   private figures: Figures | null = null;
   private figuresFor = '';
+  private dropped = -1e9; // when a shape was let go
 
   constructor(private readonly store: Store, private readonly view: View, private readonly tools: Tools,
     private readonly layouts: Layouts, private readonly actions: { make(): void; help(): void }) {
@@ -73,7 +76,7 @@ export class Panels {
     this.choice();
     this.legend();
     const empty = this.store.state.parts.length === 0;
-    $('hint').textContent = t(empty ? 'Drag a shape from the library into this view to begin.' : hints[this.tools.tool]);
+    $('hint').textContent = t(empty ? 'Click a shape in the library, or drag it into this view, to begin.' : hints[this.tools.tool]);
     for (const card of $('library').querySelectorAll<HTMLElement>('.shape')) {
       card.setAttribute('aria-pressed', String(card.dataset.shape === this.tools.brush));
     }
@@ -101,7 +104,7 @@ export class Panels {
         { 'aria-pressed': String(tools.symmetric && store.state.symmetry !== null), disabled: store.state.symmetry === null, 'data-do': 'symmetric' }),
       h('span', { class: 'grow' }), this.overlayMenu(),
       button(t('Fit') + ' (Home)', 'fit', () => view.fit()),
-      button(t('Dark or light'), 'sun', () => this.toggleTheme()),
+      button(t('Dark or light'), 'sun', () => this.toggleTheme(), { 'data-do': 'theme' }),
       button(`${t('Language')}: ${language === 'de' ? 'English' : 'Deutsch'}`, null, () => this.toggleLanguage(), { class: 'small', 'data-do': 'language' }, false),
       button(t('Help') + ' (?)', 'help', () => this.actions.help()),
       h('button', { type: 'button', class: 'main', 'data-do': 'make', disabled: store.state.parts.length !== 1, onclick: () => this.actions.make() }, icon('make'), h('span', { class: 'label' }, t('Fabricate'))));
@@ -162,20 +165,32 @@ export class Panels {
   }
 
   library(): void {
-    const card = (name: string, label: string, small: string, title: string, press: () => void, carry: (e: PointerEvent) => void) => {
+    const card = (name: string, label: string, small: string, title: string, press: (e: MouseEvent) => void, carry: (e: PointerEvent) => void) => {
       const image = this.pictures.get(name);
       return h('button', { type: 'button', class: 'shape', title, 'data-shape': name, 'aria-pressed': String(this.tools.brush === name),
-        onclick: press, onpointerdown: ((e: PointerEvent) => carry(e)) as EventListener },
+        onclick: ((e: MouseEvent) => { if (performance.now() - this.dropped > 300) press(e); }) as EventListener, onpointerdown: ((e: PointerEvent) => carry(e)) as EventListener },
       image ? h('img', { src: image, alt: '' }) : h('div', { class: 'blank' }), h('span', {}, label), h('small', {}, small));
     };
     const shapes = this.shapes.map(s => card(s.name, s.name, `${s.elements} ${t('elements')}`, s.summary,
-      () => { this.tools.brush = s.name; this.update(); }, e => this.carry(e, s.name)));
+      e => this.press(e, s.name), e => this.carry(e, s.name)));
     const own = this.layouts.saved.map((l, k) => card('layout:' + k, l.name, `${l.elements.length} ${t('elements')}`, l.name, () => this.layouts.open(k), e => this.carry(e, l.name, l)));
     const other = h('input', { class: 'other', placeholder: t('Other shape') + ': polar-3x8', 'aria-label': t('Other shape'), spellcheck: 'false',
       onchange: (() => void this.addShape(other.value.trim())) as EventListener });
     fill($('library'), h('h2', {}, t('Library')), h('div', { class: 'shapes', role: 'group', 'aria-label': t('Library') }, ...shapes), other,
       h('h2', {}, t('My layouts'), button(t('New layout'), 'draw', () => this.layouts.open(-1), { class: 'small', 'data-do': 'layout' })),
       h('div', { class: 'shapes' }, ...own));
+  }
+
+  // A click chooses the brush. Into an empty scene, from the keyboard and by a double click it places the shape.
+  private press(e: MouseEvent, name: string): void {
+    const empty = this.store.state.parts.length === 0;
+    if (this.tools.tool !== 'pull' && (empty || e.detail === 0 || e.detail === 2) && !this.store.busy) {
+      const stage = $('stage').getBoundingClientRect();
+      void this.tools.place(name, stage.left + stage.width / 2, stage.top + stage.height / 2);
+    } else {
+      this.tools.brush = name;
+      this.update();
+    }
   }
 
   // Families take any number they can build: a shape by its name.
@@ -216,6 +231,7 @@ export class Panels {
       card.removeEventListener('pointerup', end);
       card.removeEventListener('pointercancel', end);
       const on = carried !== null && m.type === 'pointerup' && document.elementFromPoint(m.clientX, m.clientY)?.closest('#stage');
+      if (carried) this.dropped = performance.now(); // the click that follows is none
       carried?.remove();
       if (on) void this.tools.place(name, m.clientX, m.clientY, layout && { elements: layout.elements, joins: layout.joins });
     };
@@ -230,10 +246,10 @@ export class Panels {
     const rows = state.parts.map((part, k) => h('li', { class: k === this.tools.part ? 'on' : '' },
       h('span', { class: 'what', onclick: () => this.choosePart(k), role: 'button', tabindex: 0, onkeydown: ((e: KeyboardEvent) => { if (e.key === 'Enter') this.choosePart(k); }) as EventListener },
         part.id, h('small', { class: part.problems.length || !part.settled || part.max_stretch > buildableStretch ? 'bad' : '' },
-          part.problems[0] ?? `${part.elements} ${t('elements')}, ${part.flipped} ${t('flipped')}, ${number(part.max_stretch * 100, 2)} %`)),
+          part.problems[0] !== undefined ? reason(part.problems[0]) : `${part.elements} ${t('elements')}, ${part.flipped} ${t('flipped')}, ${number(part.max_stretch * 100, 2)} %`)),
       state.parts.length > 1 && button(t('Delete'), 'remove', () => { this.tools.part = k; void this.tools.deletePart(); }, { class: 'small' })));
     fill($('side'), h('h2', {}, t('Parts'), this.fileButtons()), h('ul', { class: 'rows' }, ...rows), this.picked(),
-      h('h2', {}, t('History')), historyPanel(this.store, this.shapes.map(s => s.name)));
+      h('h2', {}, t('Element')), pieceRow(this.store, () => this.view.fit()), h('h2', {}, t('History')), historyPanel(this.store, this.shapes.map(s => s.name)));
   }
 
   private fileButtons(): HTMLElement {
@@ -241,10 +257,11 @@ export class Panels {
       const file = pick.files?.[0];
       if (!file) return;
       try {
-        if (await this.store.change('/api/replace', { design: JSON.parse(await file.text()) })) this.view.fit();
+        await this.replace(JSON.parse(await file.text()));
       } catch {
-        this.store.say(`${file.name}: JSON?`, 'error');
+        this.store.say(`${file.name}: ${t('this is no design file.')}`, 'error');
       }
+      pick.value = ''; // the same file can be opened again
     }) as EventListener });
     const save = async () => {
       const address = URL.createObjectURL(new Blob([await api.text('/api/design')], { type: 'application/json' }));
@@ -254,10 +271,18 @@ export class Panels {
     const mesh = h('input', { type: 'file', accept: '.obj,.ply,.stl,.off,.glb', hidden: true, onchange: (() => {
       const file = mesh.files?.[0];
       if (file) this.importMesh(file);
+      mesh.value = '';
     }) as EventListener });
     return h('span', {}, pick, mesh, button(t('Import a mesh'), 'mesh', () => mesh.click(), { class: 'small' }),
-      button(t('New'), 'plus', () => void this.store.change('/api/replace', { design: { rhombloom: 1, operations: [] } }), { class: 'small' }),
+      button(t('New'), 'plus', () => void this.replace({ rhombloom: 1, operations: [] }), { class: 'small' }),
       button(t('Open file'), 'file', () => pick.click(), { class: 'small' }), button(t('Save a copy'), 'save', () => void save(), { class: 'small' }));
+  }
+
+  private async replace(design: unknown): Promise<void> {
+    const { revision, parts } = this.store.state;
+    if (!await this.store.change('/api/replace', { design })) return;
+    this.view.fit();
+    if (parts.length > 0 && this.store.state.revision > revision) this.store.say(t('Another design is open now. Undo brings the one before it back.'));
   }
 
   // Ask how many elements, then let the server find a network of them near the mesh.
@@ -340,11 +365,11 @@ export class Panels {
     const { merging, pulling, tool, openings } = this.tools, card = $('choice');
     const show = (...children: (Node | string | null | false)[]) => { card.hidden = false; fill(card, ...children); };
     if (pulling.active) {
-      show(pulling.reason ? h('span', { class: 'bad' }, pulling.reason) : h('span', {}, `${this.tools.brush}: ${pulling.periods}× ${t('grown')}`));
+      show(pulling.reason ? h('span', { class: 'bad' }, reason(pulling.reason)) : h('span', {}, `${this.tools.brush}: ${pulling.periods}× ${t('grown')}`));
     } else if (merging.showing && !merging.reason) {
       const c = merging.candidates[merging.index];
       show(button(t('Next and previous way to join') + ' ←', 'left', () => void merging.next(-1), { 'data-do': 'previous' }),
-        h('span', {}, `${merging.index + 1} ${t('of')} ${merging.candidates.length}${merging.complete ? '' : '+'}`, c ? h('small', { class: c.max_stretch > buildableStretch ? 'bad' : '' }, `  −${c.removed} ${t('elements')}, ${t('strain')} ${number(c.max_stretch * 100, 2)} %`) : null),
+        h('span', {}, merging.complete ? `${merging.index + 1} ${t('of')} ${merging.candidates.length}` : `${t('Way')} ${merging.index + 1}`, c ? h('small', { class: c.max_stretch > buildableStretch ? 'bad' : '' }, `  −${c.removed} ${t('elements')}, ${t('strain')} ${number(c.max_stretch * 100, 2)} %`) : null),
         button(t('Next and previous way to join') + ' →', 'right', () => void merging.next(1), { 'data-do': 'next' }),
         h('button', { class: 'main', type: 'button', 'data-do': 'join', disabled: this.store.busy > 0, onclick: () => void merging.join() }, t('Join')),
         h('button', { class: 'quiet', type: 'button', 'data-do': 'apart', onclick: () => { merging.stop(); this.tools.refresh(); } }, t('Keep apart')));
@@ -367,14 +392,14 @@ export class Panels {
     const { merging } = this.tools, hint = merging.hint;
     const words: Record<string, string> = { closer: 'move closer by', apart: 'move apart by', aside: 'move aside by', turn: 'turn by' };
     const apart = h('button', { class: 'quiet', type: 'button', 'data-do': 'apart', onclick: () => { merging.stop(); this.tools.refresh(); } }, t('Keep apart'));
-    const reason = h('span', {}, merging.reason);
-    if (merging.looking) show(reason, h('span', { class: 'spinner' }), t('Looking for a pose that works'), apart);
-    else if (hint?.kind === 'none') show(reason, t('No pose nearby works'), apart);
+    const why = h('span', {}, reason(merging.reason));
+    if (merging.looking) show(why, h('span', { class: 'spinner' }), t('Looking for a pose that works'), apart);
+    else if (hint?.kind === 'none') show(why, t('No pose nearby works'), apart);
     else if (hint) {
-      show(reason, h('b', {}, `${t(words[hint.kind])} ${number(Math.abs(hint.amount))} ${hint.kind === 'turn' ? '°' : 'mm'}`),
+      show(why, h('b', {}, `${t(words[hint.kind])} ${number(Math.abs(hint.amount))} ${hint.kind === 'turn' ? '°' : 'mm'}`),
         h('button', { class: 'main', type: 'button', 'data-do': 'follow', onclick: () => void merging.follow() }, t('Do it')), apart);
     } else {
-      show(reason, h('button', { class: 'main', type: 'button', 'data-do': 'suggest', onclick: () => void merging.suggest() }, t('Suggest')), apart);
+      show(why, h('button', { class: 'main', type: 'button', 'data-do': 'suggest', onclick: () => void merging.suggest() }, t('Suggest')), apart);
     }
   }
 }

@@ -1,6 +1,7 @@
 // The document as this tab knows it: its state, its geometry, and the way to change it.
 import * as api from './api';
 import type { Geometry } from './geometry';
+import { reason } from './reasons';
 import { t } from './words';
 
 export type Operation = Record<string, unknown> & { op: string };
@@ -77,11 +78,14 @@ export class Store {
   }
 
   explain(problem: unknown): void {
+    this.say(this.explanation(problem), 'error');
+  }
+
+  explanation(problem: unknown): string {
     if (!(problem instanceof api.Refusal)) throw problem;
-    const text = problem.status === 0 ? t('The studio does not answer. Start it again: everything up to the last step is saved.')
+    return problem.status === 0 ? t('The studio does not answer. Start it again: everything up to the last step is saved.')
       : problem.status === 403 || problem.status === 421 ? t('This address belongs to an earlier run of the studio. Open the address that it printed.')
-        : problem.message;
-    this.say(text, 'error');
+        : reason(problem.message);
   }
 
   // Change the document; false when it was refused, with the reason said.

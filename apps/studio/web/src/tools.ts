@@ -233,7 +233,7 @@ export class Tools {
     const part = this.store.state.parts[this.part];
     if (!part) return;
     this.part = this.element = this.vertex = -1;
-    await this.store.change('/api/delete', { part: part.id });
+    if (await this.store.change('/api/delete', { part: part.id })) this.store.say(`${part.id}: ${t('deleted. Undo brings it back.')}`);
   }
 
   // Put a shape where the pointer is: onto the mirror, or onto the plane through the middle of the scene.

@@ -237,7 +237,8 @@ export class View {
     this.radius = Math.max(60, low.distanceTo(high) / 2);
     const centre = low.clone().add(high).multiplyScalar(0.5);
     const way = this.camera.position.clone().sub(this.orbit.target).normalize();
-    const half = Math.atan(Math.tan(this.camera.fov * Math.PI / 360) * Math.min(1, this.camera.aspect));
+    const free = { across: 1 - this.covered.left, down: 1 - this.covered.top };
+    const half = Math.atan(Math.tan(this.camera.fov * Math.PI / 360) * Math.min(free.down, this.camera.aspect * free.across));
     this.orbit.target.copy(centre);
     this.camera.position.copy(centre).addScaledVector(way, this.radius / Math.sin(half) * 1.08);
     this.grid.position.set(0, 0, box ? low.z : -150);
@@ -251,12 +252,32 @@ export class View {
     this.fit();
   }
 
-  // The share of the view's width on the left that something else covers.
-  cover(share: number): void {
-    const { clientWidth: w, clientHeight: h } = this.canvas.parentElement!;
-    if (share > 0) this.camera.setViewOffset(w, h, -w * share / 2, 0, w, h);
-    else this.camera.clearViewOffset();
+  private covered = { left: 0, top: 0 };
+
+  // The shares of the view, on the left and at the top, that something else covers: the scene moves out of the way.
+  cover(left: number, top: number): void {
+    this.covered = { left, top };
+    this.uncover();
     this.render();
+  }
+
+  private uncover(): void {
+    const { clientWidth: w, clientHeight: h } = this.canvas.parentElement!, { left, top } = this.covered;
+    if (left > 0 || top > 0) this.camera.setViewOffset(w, h, -w * left / 2, -h * top / 2, w, h);
+    else this.camera.clearViewOffset();
+  }
+
+  // Where the camera stands; the function that is returned brings it back.
+  remember(): () => void {
+    const position = this.camera.position.clone(), target = this.orbit.target.clone(), floor = this.grid.position.z, { radius } = this;
+    return () => {
+      this.camera.position.copy(position);
+      this.orbit.target.copy(target);
+      this.grid.position.z = floor;
+      this.radius = radius;
+      this.orbit.update();
+      this.render();
+    };
   }
 
   settleGrid(): void {
@@ -273,6 +294,7 @@ export class View {
     const { clientWidth: w, clientHeight: h } = this.canvas.parentElement!;
     this.renderer.setSize(w, h, false);
     this.camera.aspect = w / Math.max(1, h);
+    this.uncover();
     this.camera.updateProjectionMatrix();
     this.render();
   }

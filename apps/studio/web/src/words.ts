@@ -13,7 +13,7 @@ const german: Record<string, string> = {
   'Make the kit': 'Bausatz machen', 'Material': 'Material', 'Machine': 'Maschine', 'Paper': 'Papier', 'by thickness': 'nach Dicke',
   'none in particular': 'keine bestimmte', 'Making': 'In Arbeit', 'pieces': 'Teile', 'to cut': 'zu schneiden', 'to build': 'zu bauen',
   'Drag a shape into the scene': 'Eine Form in die Szene ziehen',
-  'Drag a shape from the library into this view to begin.': 'Zum Beginnen eine Form aus der Sammlung in diese Ansicht ziehen.',
+  'Click a shape in the library, or drag it into this view, to begin.': 'Zum Beginnen eine Form in der Sammlung anklicken oder in diese Ansicht ziehen.',
   'Click chooses, drag moves the chosen part, drag beside it turns the view.': 'Klicken wählt, Ziehen bewegt das gewählte Teil, Ziehen daneben dreht die Ansicht.',
   'Press on a vertex and pull: the limb grows. Choose the brush in the library.': 'Auf eine Ecke drücken und ziehen: das Glied wächst. Den Pinsel in den Formen wählen.',
   'Click elements to take out, then choose what for.': 'Elemente anklicken, die herausgenommen werden, dann den Zweck wählen.',
@@ -36,6 +36,19 @@ const german: Record<string, string> = {
   'Choose elements of one part.': 'Bitte Elemente eines Teils wählen.', 'Keyboard': 'Tastatur', 'Everything fits the screen': 'Alles ins Bild', 'Front, side, top': 'Vorn, Seite, oben', 'Next and previous way to join': 'Nächste und vorige Verbindung',
   'Turn the view': 'Ansicht drehen', 'drag, two fingers, arrow keys': 'ziehen, Pfeiltasten', 'Shift the view': 'Ansicht schieben', 'right drag, two fingers': 'rechts ziehen, zwei Finger',
   'Zoom': 'Vergrößern', 'wheel, pinch, + and -': 'Rad, zwei Finger, + und -', 'Leave': 'Verlassen', 'Save to the library': 'In die Sammlung', 'My layouts': 'Meine Zeichnungen',
+  'replay': 'Nachbauen', 'assembly plan': 'Bauplan', 'nesting and cut sheets': 'Bögen', 'booklet': 'Heft', 'preview': 'Vorschau',
+  'The design has changed since this kit was made.': 'Der Entwurf hat sich seit diesem Bausatz geändert.',
+  'Element': 'Element', 'Change the element': 'Element ändern', 'thick': 'dick', 'Short side (mm)': 'Kurze Seite (mm)', 'Long side (mm)': 'Lange Seite (mm)',
+  'Acute angle (degrees)': 'Spitzer Winkel (Grad)', 'Thickness (mm)': 'Dicke (mm)', 'The whole design grows or shrinks with the short side': 'Der ganze Entwurf wächst oder schrumpft mit der kurzen Seite',
+  'Way': 'Art', 'this is no design file.': 'das ist keine Entwurfsdatei.', 'deleted. Undo brings it back.': 'gelöscht. Zurück holt es wieder.',
+  'Another design is open now. Undo brings the one before it back.': 'Jetzt ist ein anderer Entwurf offen. Zurück holt den vorigen wieder.',
+  'Makes the sheets to cut, the booklet that shows every step, a film of the assembly and everything else as one file to download.':
+    'Macht die Bögen zum Schneiden, das Heft mit jedem Schritt, einen Film vom Zusammenbau und alles Übrige als eine Datei zum Herunterladen.',
+  'First steps': 'Erste Schritte', 'Click a shape in the library, or drag it into the view.': 'Eine Form in der Sammlung anklicken oder in die Ansicht ziehen.',
+  'Drag a second shape so that it reaches into the first, step through the ways to join them, and join.': 'Eine zweite Form so ziehen, dass sie in die erste reicht, die Arten der Verbindung durchsehen, verbinden.',
+  'Choose Pull, press on a vertex and drag: a limb grows.': 'Ziehen wählen, auf eine Ecke drücken und ziehen: ein Glied wächst.',
+  'Open makes room for the lamp holder, the cable and the bulb.': 'Öffnen macht Platz für Fassung, Kabel und Leuchtmittel.',
+  'Fabricate makes the kit. Everything is saved as you go; every step can be undone or changed in the history.': 'Fertigen macht den Bausatz. Alles wird laufend gesichert; jeder Schritt lässt sich zurücknehmen oder im Verlauf ändern.',
   'Along the normal': 'Entlang der Normalen', 'hold Shift while pulling': 'Umschalt beim Ziehen halten', 'Delete the chosen part': 'Gewähltes Teil löschen',
 };
 
