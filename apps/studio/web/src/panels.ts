@@ -30,6 +30,7 @@ const symmetries: [string, Symmetry | null][] = [
   ['Axis', { axis: [0, 0, 1], fold: 3 }]];
 
 const buildableStretch = 0.01; // more cannot be fabricated
+const largestUpload = 8_000_000; // bytes, as the server has it
 const folds = [2, 3, 4, 5, 6, 8];
 
 export class Panels {
@@ -288,15 +289,22 @@ export class Panels {
   // Ask how many elements, then let the server find a network of them near the mesh.
   private importMesh(file: File): void {
     const count = h('input', { type: 'number', min: 6, max: 3000, value: 300, 'aria-label': t('How many elements') });
-    const dialog = h('dialog', { class: 'small', 'aria-label': t('Import a mesh') });
+    if (file.size > largestUpload) {
+      this.store.say(`${file.name}: ${t('larger than 8 MB. Simplify the mesh first, or use rhombloom import in a terminal.')}`, 'error');
+      return;
+    }
+    const dialog = h('dialog', { class: 'small', 'aria-label': t('Import a mesh') }), body = h('div', { class: 'body' });
     const go = async () => {
-      dialog.close();
+      fill(body, h('p', { class: 'progress', role: 'status' }, h('span', { class: 'spinner' }), t('Looking for a network of elements near the mesh. This may take a minute.')));
       const query = new URLSearchParams({ revision: String(this.store.state.revision), elements: count.value, name: file.name });
-      if (await this.store.change(`/api/import?${query}`, await file.arrayBuffer())) this.view.fit();
+      const done = await this.store.change(`/api/import?${query}`, await file.arrayBuffer());
+      dialog.close();
+      if (done) this.view.fit();
     };
     dialog.append(h('div', {}, h('div', { class: 'head' }, h('strong', {}, `${t('Import a mesh')}: ${file.name}`)),
-      h('div', { class: 'body' }, h('label', {}, t('How many elements') + ' ', count), ' ',
-        h('button', { type: 'button', class: 'main', onclick: () => void go() }, t('Apply')), h('button', { type: 'button', class: 'quiet', onclick: () => dialog.close() }, t('Cancel')))));
+      body));
+    fill(body, h('label', {}, t('How many elements') + ' ', count), ' ',
+      h('button', { type: 'button', class: 'main', onclick: () => void go() }, t('Apply')), h('button', { type: 'button', class: 'quiet', onclick: () => dialog.close() }, t('Cancel')));
     dialog.addEventListener('close', () => dialog.remove());
     document.getElementById('dialog')!.append(dialog);
     dialog.showModal();

@@ -40,6 +40,8 @@ const german: Record<string, string> = {
   'The design has changed since this kit was made.': 'Der Entwurf hat sich seit diesem Bausatz geändert.',
   'Element': 'Element', 'Change the element': 'Element ändern', 'thick': 'dick', 'Short side (mm)': 'Kurze Seite (mm)', 'Long side (mm)': 'Lange Seite (mm)',
   'Acute angle (degrees)': 'Spitzer Winkel (Grad)', 'Thickness (mm)': 'Dicke (mm)', 'The whole design grows or shrinks with the short side': 'Der ganze Entwurf wächst oder schrumpft mit der kurzen Seite',
+  'larger than 8 MB. Simplify the mesh first, or use rhombloom import in a terminal.': 'größer als 8 MB. Bitte das Netz erst vereinfachen oder rhombloom import in einem Terminal verwenden.',
+  'Looking for a network of elements near the mesh. This may take a minute.': 'Sucht ein Netz von Elementen nahe der Form. Das kann eine Minute dauern.',
   'Way': 'Art', 'this is no design file.': 'das ist keine Entwurfsdatei.', 'deleted. Undo brings it back.': 'gelöscht. Zurück holt es wieder.',
   'Another design is open now. Undo brings the one before it back.': 'Jetzt ist ein anderer Entwurf offen. Zurück holt den vorigen wieder.',
   'Makes the sheets to cut, the booklet that shows every step, a film of the assembly and everything else as one file to download.':
