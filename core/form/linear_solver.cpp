@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <mutex>
 #include <numeric>
 
 #include "core/expected.h"
@@ -64,6 +65,8 @@ struct Task
 
 struct LinearSolver::Factor
 {
+    std::vector<int> pattern_start; // of the matrix
+    std::vector<int> pattern_row;
     EliminationTree tree;
     std::vector<FrontShape> shapes;
     std::vector<std::size_t> panel_offset;
@@ -107,7 +110,7 @@ std::vector<int> range(int first, int last)
 } // namespace
 
 LinearSolver::Factor::Factor(const BlockMatrix& matrix, int thread_count)
-    : tree(elimination_tree(matrix)), threads(thread_count)
+    : pattern_start(matrix.start), pattern_row(matrix.row), tree(elimination_tree(matrix)), threads(thread_count)
 {
     std::size_t size = 0;
     children.resize(tree.fronts.size());
@@ -311,11 +314,67 @@ bool LinearSolver::Factor::factor_fronts(const BlockMatrix& matrix, double shift
     return true;
 }
 
-LinearSolver::LinearSolver(const BlockMatrix& matrix, int threads) : factor_(std::make_unique<Factor>(matrix, threads))
+// Symbolic factorisations that nobody uses at the moment, with their memory. While a surface is dragged its
+// connectivity stays the same, and to order its matrix costs as much as two or three steps of Newton's method.
+class LinearSolver::Shelf
 {
+public:
+    Shelf() { factors_.reserve(most_kept); }
+
+    std::unique_ptr<Factor> take(const BlockMatrix& matrix, int threads)
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = std::find_if(factors_.begin(), factors_.end(), [&](const std::unique_ptr<Factor>& f) {
+            return f->threads == threads && f->pattern_start == matrix.start && f->pattern_row == matrix.row;
+        });
+        if (found == factors_.end()) {
+            return nullptr;
+        }
+        std::unique_ptr<Factor> factor = std::move(*found);
+        factors_.erase(found);
+        return factor;
+    }
+
+    void keep(std::unique_ptr<Factor> factor)
+    {
+        if (factor->panels.size() > largest_kept) {
+            return;
+        }
+        const std::lock_guard lock(mutex_);
+        if (factors_.size() == most_kept) {
+            factors_.erase(factors_.begin()); // the one that was used least recently
+        }
+        factors_.push_back(std::move(factor));
+    }
+
+private:
+    static constexpr std::size_t most_kept = 4;
+    static constexpr std::size_t largest_kept = 2'000'000; // numbers: about 3,000 vertices
+
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Factor>> factors_;
+};
+
+LinearSolver::Shelf& LinearSolver::shelf()
+{
+    static Shelf shelf;
+    return shelf;
 }
 
-LinearSolver::~LinearSolver() = default;
+LinearSolver::LinearSolver(const BlockMatrix& matrix, int threads) : factor_(shelf().take(matrix, threads))
+{
+    if (!factor_) {
+        factor_ = std::make_unique<Factor>(matrix, threads);
+    }
+}
+
+LinearSolver::~LinearSolver()
+{
+    if (factor_) {
+        shelf().keep(std::move(factor_));
+    }
+}
+
 LinearSolver::LinearSolver(LinearSolver&&) noexcept = default;
 LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 

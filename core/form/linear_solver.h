@@ -14,6 +14,7 @@ class LinearSolver
 {
 public:
     //! \brief Order and analyse the pattern of \p matrix once for all factorisations.
+    //! \details The last four small patterns are remembered when their solvers are gone.
     explicit LinearSolver(const BlockMatrix& matrix, int threads = 1);
     ~LinearSolver();
     LinearSolver(LinearSolver&&) noexcept;
@@ -30,6 +31,8 @@ public:
 
 private:
     struct Factor;
+    class Shelf;
+    static Shelf& shelf();
     std::unique_ptr<Factor> factor_;
 };
 

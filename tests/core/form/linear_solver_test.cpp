@@ -67,6 +67,36 @@ TEST(LinearSolver, RefusesAnIndefiniteMatrix)
     EXPECT_TRUE(solver.factor(matrix, 0.1));
 }
 
+TEST(LinearSolver, RemembersAPatternButNotItsValues)
+{
+    const BlockMatrix matrix = ball_matrix(2);
+    BlockMatrix other = matrix;
+    for (double& value : other.value) {
+        value *= 2;
+    }
+    const Eigen::VectorXd b = Eigen::VectorXd::Ones(3 * matrix.size);
+    const auto solution = [&](const BlockMatrix& m, int threads) {
+        LinearSolver solver(m, threads);
+        EXPECT_TRUE(solver.factor(m, 0.1));
+        return solver.solve(b);
+    };
+    const Eigen::VectorXd first = solution(matrix, 1);
+    solution(other, 1);
+    for (const int level : {0, 1}) {
+        const BlockMatrix smaller = ball_matrix(level);
+        LinearSolver solver(smaller);
+        ASSERT_TRUE(solver.factor(smaller, 0.1));
+        EXPECT_LT(relative_residual(smaller, solver, 0.1), 1e-12) << level;
+    }
+    EXPECT_EQ(solution(matrix, 1), first);
+    EXPECT_EQ(solution(matrix, 2), first);
+    LinearSolver one(matrix); // two at a time share nothing
+    LinearSolver two(matrix);
+    ASSERT_TRUE(one.factor(matrix, 0.1));
+    ASSERT_TRUE(two.factor(other, 0.1));
+    EXPECT_EQ(one.solve(b), first);
+}
+
 TEST(LinearSolver, TreatsPartsThatAreNotConnected)
 {
     BlockMatrix matrix = make_block_matrix(5, {{0, 1}, {4, 3}});
