@@ -14,7 +14,8 @@ constexpr double most_changed = 0.04; // of the number of elements, by splits an
 constexpr double reach = 3;           // edges of triangles over which a move is judged
 constexpr std::size_t most_places = 8;
 constexpr int patience = 4;       // rounds in vain after which it ends
-constexpr int more_patience = 12; // when it cannot be built yet
+constexpr int more_patience = 10; // when it cannot be built yet
+constexpr int most_kicks = 8;     // changes for the worse that may lead out of a dead end, while it cannot be built
 constexpr int alternatives = 4;   // moves that are tried at a place, side by side
 
 //! Where something is to be done, and what.
@@ -42,25 +43,33 @@ public:
     void run()
     {
         const auto& progress = trials_.options.progress;
-        while (work_ > 0 && round() && (!progress || progress("easing the network"))) {
+        while (work_ > 0 && (round() || kick()) && (!progress || progress("easing the network"))) {
+        }
+        if (champion_ && score(*champion_, price_) < score(best_, price_)) {
+            best_ = std::move(*champion_);
         }
     }
 
 private:
     bool round();
+    bool kick();
     std::vector<Place> places();
     double badness(const Trial& trial, std::size_t element) const;
     double badness_near(const Trial& trial, const Vec3& where) const;
     std::vector<std::optional<Trial>> settle_all(const std::vector<std::vector<Move>>& sets);
     std::vector<Chosen> choose(const std::vector<Place>& places, const std::vector<std::optional<Trial>>& trials) const;
     bool take(std::vector<std::optional<Trial>>& candidates);
+    void remember(std::vector<std::optional<Trial>>& candidates);
 
     Trial& best_;
     const Trials& trials_;
     double price_;
     long work_;
     double radius_;
-    int in_vain_ = 0;                      //!< rounds without a gain, in a row
+    int in_vain_ = 0; //!< rounds without a gain, in a row
+    int kicks_ = 0;
+    std::optional<Trial> champion_;        //!< the best so far, when a kick has left it
+    std::optional<Trial> runner_up_;       //!< the best of what was tried since the last gain
     std::map<Corners, std::size_t> tried_; //!< how many of a place's moves were in vain
 };
 
@@ -170,6 +179,35 @@ bool Polishing::take(std::vector<std::optional<Trial>>& candidates)
     return taken;
 }
 
+void Polishing::remember(std::vector<std::optional<Trial>>& candidates)
+{
+    if (best_.excess == 0) {
+        return;
+    }
+    for (std::optional<Trial>& candidate : candidates) {
+        if (candidate && (!runner_up_ || score(*candidate, price_) < score(*runner_up_, price_))) {
+            runner_up_ = std::move(candidate);
+        }
+    }
+}
+
+//! Leave a dead end by the least bad of the changes that were tried there.
+bool Polishing::kick()
+{
+    if (best_.excess == 0 || !runner_up_ || kicks_ == most_kicks) {
+        return false;
+    }
+    ++kicks_;
+    if (!champion_ || score(best_, price_) < score(*champion_, price_)) {
+        champion_ = std::move(best_);
+    }
+    best_ = std::move(*runner_up_);
+    runner_up_.reset();
+    tried_.clear();
+    in_vain_ = 0;
+    return true;
+}
+
 bool Polishing::round()
 {
     const std::vector<Place> places = this->places();
@@ -205,8 +243,10 @@ bool Polishing::round()
             tried_.erase(place.corners);
         }
         in_vain_ = 0;
+        runner_up_.reset();
     } else {
         ++in_vain_;
+        remember(trials);
     }
     return in_vain_ < (best_.excess > 0 ? more_patience : patience);
 }

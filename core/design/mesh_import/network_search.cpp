@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <tuple>
 
 #include "core/design/mesh_import/curvature_match.h"
 #include "core/design/mesh_import/join_network.h"
@@ -189,7 +190,10 @@ std::vector<Trial> finalists(std::vector<Trial> found)
 
 bool can_be_built(const Trial& trial)
 {
-    return trial.excess == 0 && !has_crossings(trial.found.surface);
+    constexpr double most_stretch = 0.0098; // a little below the hundredth that a sheet gives: a trial is not exact
+    return std::all_of(trial.ratings.begin(), trial.ratings.end(),
+                       [](const ElementRating& rating) { return rating.stretch < most_stretch; }) &&
+           !has_crossings(trial.found.surface);
 }
 
 //! The best of one attempt, eased.
@@ -204,15 +208,16 @@ std::optional<Trial> attempt(const Trials& trials, int number)
     for (Trial& trial : found) {
         polish(trial, trials, stretch_price, work);
     }
-    std::stable_sort(found.begin(), found.end(), [](const Trial& a, const Trial& b) {
-        return std::pair(has_crossings(a.found.surface), score(a, stretch_price)) <
-               std::pair(has_crossings(b.found.surface), score(b, stretch_price));
-    });
-    Trial& best = found.front();
-    if (!can_be_built(best)) {
-        polish(best, trials, 4 * stretch_price, more_work);
+    const auto better = [](const Trial& a, const Trial& b) {
+        return std::tuple(!can_be_built(a), has_crossings(a.found.surface), score(a, stretch_price)) <
+               std::tuple(!can_be_built(b), has_crossings(b.found.surface), score(b, stretch_price));
+    };
+    std::stable_sort(found.begin(), found.end(), better);
+    for (std::size_t k = 0; k < found.size() && !can_be_built(found.front()); ++k) {
+        polish(found[k], trials, 4 * stretch_price, more_work);
+        std::stable_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(k) + 1, better);
     }
-    return std::move(best);
+    return std::move(found.front());
 }
 
 } // namespace
@@ -226,7 +231,7 @@ Expected<FoundNetwork> search_network(const TriangleMesh& target, const Element&
         return refuse("stopped");
     }
     Trials trials{tree, element, options};
-    constexpr int attempts = 3;
+    const int attempts = std::clamp(1200 / options.elements, 2, 6); // few elements settle quickly
     std::optional<Trial> best;
     for (int k = 0; k < attempts && !(best && can_be_built(*best)); ++k) {
         auto next = attempt(trials, k);
