@@ -1,6 +1,7 @@
 #include "core/design/mesh_import/network_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -104,13 +105,6 @@ Plan plan_of(const TriangleMesh& triangles, const MeshTree& target)
     return {triangles, triangle_middles(triangles, target), {}};
 }
 
-//! Before it is polished: most stretch can be eased at little cost.
-bool is_better_start(const Trial& a, const Trial& b)
-{
-    constexpr double early_price = 4;
-    return score(a, early_price) < score(b, early_price);
-}
-
 bool is_better(const Trial& a, const Trial& b)
 {
     return score(a, stretch_price) < score(b, stretch_price);
@@ -158,7 +152,7 @@ std::vector<Trial> start(const Trials& trials, const Variant& variant)
     return result;
 }
 
-//! The networks of several remeshings, the best first.
+//! The networks of several remeshings.
 std::vector<Trial> starts(const Trials& trials, int attempt)
 {
     const std::vector<Variant> all = variants(attempt);
@@ -168,24 +162,25 @@ std::vector<Trial> starts(const Trials& trials, int attempt)
     for (std::vector<Trial>& trial : found) { // in this order: the same every time
         std::move(trial.begin(), trial.end(), std::back_inserter(result));
     }
-    std::stable_sort(result.begin(), result.end(), is_better_start);
     return result;
 }
 
-//! The best as they are and, of the others, the one that comes nearest whatever its stretch.
-std::vector<Trial> finalists(std::vector<Trial> found)
+//! Two to be polished. Much stretch can be eased at little cost, so at first it counts little; when that has come to
+//! nothing, those with the least are taken.
+std::vector<Trial> finalists(std::vector<Trial> found, int attempt)
 {
-    constexpr double small_price = 0.5;
-    if (found.size() > 2) {
-        const auto nearest = std::min_element(found.begin() + 1, found.end(), [](const Trial& a, const Trial& b) {
-            return score(a, small_price) < score(b, small_price);
+    const std::array<double, 2> prices = attempt == 0 ? std::array{4.0, 0.5} : std::array{stretch_price, 4.0};
+    std::vector<Trial> result;
+    for (const double price : prices) {
+        const auto best = std::min_element(found.begin(), found.end(), [price](const Trial& a, const Trial& b) {
+            return score(a, price) < score(b, price);
         });
-        std::vector<Trial> two;
-        two.push_back(std::move(found.front()));
-        two.push_back(std::move(*nearest));
-        return two;
+        if (best != found.end()) {
+            result.push_back(std::move(*best));
+            found.erase(best);
+        }
     }
-    return found;
+    return result;
 }
 
 bool can_be_built(const Trial& trial)
@@ -199,7 +194,7 @@ bool can_be_built(const Trial& trial)
 //! The best of one attempt, eased.
 std::optional<Trial> attempt(const Trials& trials, int number)
 {
-    std::vector<Trial> found = finalists(starts(trials, number));
+    std::vector<Trial> found = finalists(starts(trials, number), number);
     if (found.empty()) {
         return std::nullopt;
     }
@@ -231,7 +226,7 @@ Expected<FoundNetwork> search_network(const TriangleMesh& target, const Element&
         return refuse("stopped");
     }
     Trials trials{tree, element, options};
-    const int attempts = std::clamp(1200 / options.elements, 2, 6); // few elements settle quickly
+    const int attempts = std::clamp(1200 / options.elements, 3, 6); // few elements settle quickly
     std::optional<Trial> best;
     for (int k = 0; k < attempts && !(best && can_be_built(*best)); ++k) {
         auto next = attempt(trials, k);
