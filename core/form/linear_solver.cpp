@@ -1,32 +1,17 @@
 #include "core/form/linear_solver.h"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <mutex>
-#include <numeric>
 
-#include "core/expected.h"
 #include "core/form/dense_kernels.h"
-#include "core/form/elimination_tree.h"
-#include "core/form/front_shape.h"
+#include "core/form/linear_factor.h"
 #include "core/form/parallel.h"
 
 namespace rhombloom {
 
 namespace {
 
-constexpr double smallest_parallel_work = 2e7; // multiplications; below, starting a thread costs more than it brings
-constexpr int smallest_shared_update = 24;     // strips of an update matrix that two threads share
-
-// Where a block of the matrix goes: the same place of its front's panel in every factorisation.
-struct BlockTarget
-{
-    std::size_t block;
-    std::array<std::size_t, 3> row; // offsets of its scalar rows at its first column
-    bool transposed;
-    bool diagonal;
-};
+constexpr int smallest_shared_update = 24; // strips of an update matrix that two threads share
 
 // A strip of a child's update on its way to the front of its parent.
 struct Scatter
@@ -53,167 +38,7 @@ struct Scatter
     }
 };
 
-// A contiguous range of fronts factored in one go, with the stack of its pending updates.
-struct Task
-{
-    int first = 0;
-    int last = 0;
-    std::vector<double> stack;
-};
-
 } // namespace
-
-struct LinearSolver::Factor
-{
-    std::vector<int> pattern_start; // of the matrix
-    std::vector<int> pattern_row;
-    EliminationTree tree;
-    std::vector<FrontShape> shapes;
-    std::vector<std::size_t> panel_offset;
-    std::vector<BlockTarget> targets;
-    std::vector<std::size_t> first_target; // per front
-    std::vector<std::vector<int>> children;
-    std::vector<Task> subtrees; // independent of each other
-    Task top;                   // the fronts that are in no subtree, in order
-    std::vector<int> top_fronts;
-    std::vector<double> panels;
-    std::vector<double*> update; // per front, while its parent needs it
-    int threads = 1;
-
-    explicit Factor(const BlockMatrix& matrix, int thread_count);
-    void find_targets(const BlockMatrix& matrix);
-    void split_into_tasks();
-    std::size_t stack_size(const std::vector<int>& fronts) const;
-
-    bool factor_fronts(const BlockMatrix& matrix, double shift, const std::vector<int>& fronts, double* stack,
-                       int helpers, const std::atomic<bool>& failed);
-    void assemble_matrix(const BlockMatrix& matrix, double shift, int f);
-    void assemble_child(int f, int child, double* update_matrix);
-    void subtract_update(int f, double* update_matrix, int helpers) const;
-    double total_work() const;
-
-    void gather(const Eigen::VectorXd& y, std::size_t f, std::vector<double>& local) const;
-    void solve_forward(Eigen::VectorXd& y, std::size_t f, std::vector<double>& local) const;
-    void solve_backward(Eigen::VectorXd& y, std::size_t f, std::vector<double>& local,
-                        std::vector<double>& scratch) const;
-};
-
-namespace {
-
-std::vector<int> range(int first, int last)
-{
-    std::vector<int> numbers(last - first);
-    std::iota(numbers.begin(), numbers.end(), first);
-    return numbers;
-}
-
-} // namespace
-
-LinearSolver::Factor::Factor(const BlockMatrix& matrix, int thread_count)
-    : pattern_start(matrix.start), pattern_row(matrix.row), tree(elimination_tree(matrix)), threads(thread_count)
-{
-    std::size_t size = 0;
-    children.resize(tree.fronts.size());
-    for (std::size_t f = 0; f < tree.fronts.size(); ++f) {
-        shapes.emplace_back(tree.fronts[f]);
-        panel_offset.push_back(size);
-        size += shapes.back().panel_size();
-        if (tree.fronts[f].parent >= 0) {
-            children[tree.fronts[f].parent].push_back(static_cast<int>(f));
-        }
-    }
-    panels.resize(size);
-    update.assign(tree.fronts.size(), nullptr);
-    find_targets(matrix);
-    split_into_tasks();
-}
-
-void LinearSolver::Factor::find_targets(const BlockMatrix& matrix)
-{
-    std::vector<std::vector<std::pair<int, std::size_t>>> blocks_of_column(matrix.size); // (position of row, block)
-    std::vector<bool> transposed(matrix.row.size());
-    for (int j = 0; j < matrix.size; ++j) {
-        for (int k = matrix.start[j]; k < matrix.start[j + 1]; ++k) {
-            const int a = tree.position[matrix.row[k]];
-            const int b = tree.position[j];
-            transposed[k] = a < b;
-            blocks_of_column[std::min(a, b)].emplace_back(std::max(a, b), k);
-        }
-    }
-    for (std::size_t f = 0; f < tree.fronts.size(); ++f) {
-        const Front& front = tree.fronts[f];
-        first_target.push_back(targets.size());
-        for (int j = front.first; j < front.last; ++j) {
-            for (const auto& [row, block] : blocks_of_column[j]) {
-                int local = 3 * (row - front.first);
-                if (row >= front.last) {
-                    const auto found = std::lower_bound(front.rows.begin(), front.rows.end(), row);
-                    local = strip * shapes[f].diagonal_strips + 3 * static_cast<int>(found - front.rows.begin());
-                }
-                const std::size_t column = panel_offset[f] + std::size_t(strip) * 3 * (j - front.first);
-                targets.push_back({block,
-                                   {column + panel_row(shapes[f], local), column + panel_row(shapes[f], local + 1),
-                                    column + panel_row(shapes[f], local + 2)},
-                                   transposed[block],
-                                   row == j});
-            }
-        }
-    }
-    first_target.push_back(targets.size());
-}
-
-// Subtrees of at most a quarter of a thread's share become tasks of their own.
-void LinearSolver::Factor::split_into_tasks()
-{
-    const int n = static_cast<int>(tree.fronts.size());
-    std::vector<double> work(n);
-    std::vector<int> first(n); // of the subtree
-    for (int f = 0; f < n; ++f) {
-        work[f] = shapes[f].work();
-        first[f] = children[f].empty() ? f : first[children[f].front()];
-        for (const int child : children[f]) {
-            work[f] += work[child];
-        }
-    }
-    const double total = total_work();
-    const double largest = threads > 1 && total > smallest_parallel_work ? total / (4 * threads) : 2 * total;
-    for (int f = n - 1; f >= 0;) {
-        if (work[f] > largest) {
-            top_fronts.push_back(f--);
-        } else {
-            subtrees.push_back({first[f], f + 1, {}});
-            f = first[f] - 1;
-        }
-    }
-    std::reverse(top_fronts.begin(), top_fronts.end());
-    for (Task& task : subtrees) {
-        task.stack.resize(stack_size(range(task.first, task.last)));
-    }
-    top.stack.resize(stack_size(top_fronts));
-}
-
-// Largest fill of the stack: a front's update is built above those of its children, then moved down onto them.
-std::size_t LinearSolver::Factor::stack_size(const std::vector<int>& fronts) const
-{
-    std::size_t now = 0;
-    std::size_t peak = 0;
-    std::vector<bool> inside(tree.fronts.size(), false);
-    for (const int f : fronts) {
-        inside[f] = true;
-        now += shapes[f].update_size();
-        peak = std::max(peak, now);
-        for (const int child : children[f]) {
-            now -= inside[child] ? shapes[child].update_size() : 0;
-        }
-    }
-    return peak;
-}
-
-double LinearSolver::Factor::total_work() const
-{
-    return std::accumulate(shapes.begin(), shapes.end(), 0.0,
-                           [](double sum, const FrontShape& shape) { return sum + shape.work(); });
-}
 
 void LinearSolver::Factor::assemble_matrix(const BlockMatrix& matrix, double shift, int f)
 {
@@ -384,11 +209,11 @@ bool LinearSolver::factor(const BlockMatrix& matrix, double shift)
     std::atomic<bool> failed = false;
     parallel_tasks(f.threads, static_cast<int>(f.subtrees.size()), [&](int k) {
         Task& task = f.subtrees[k];
-        if (!f.factor_fronts(matrix, shift, range(task.first, task.last), task.stack.data(), 1, failed)) {
+        if (!f.factor_fronts(matrix, shift, task.fronts, task.stack.data(), 1, failed)) {
             failed = true;
         }
     });
-    return !failed && f.factor_fronts(matrix, shift, f.top_fronts, f.top.stack.data(), f.threads, failed);
+    return !failed && f.factor_fronts(matrix, shift, f.top.fronts, f.top.stack.data(), f.threads, failed);
 }
 
 // A front's pivots and the rows below it, in strips.
