@@ -181,11 +181,16 @@ std::string summary(const Nesting& nesting, const NestOptions& options)
     const std::size_t whole = nesting.sheets.size() - (with_remnant ? 1 : 0);
     std::string text = std::to_string(options.count) + (options.count == 1 ? " copy on " : " copies on ");
     if (with_remnant) {
-        text += "the remnant (" + std::to_string(nesting.sheets.front().placements.size()) + " copies) and ";
+        text += "the remnant" + (whole > 0 ? " (" + std::to_string(nesting.sheets.front().placements.size()) + ") and "
+                                           : std::string());
     }
-    text += std::to_string(whole) + (whole == 1 ? " sheet of " : " sheets of ") +
-            size(options.sheet_width, options.sheet_height) + ", " + std::to_string(nesting.per_sheet) +
-            " on a full one; " + to_fixed(100 * nesting.utilisation, 1) + " % used";
+    if (whole > 0) {
+        text += std::to_string(whole) + (whole == 1 ? " sheet of " : " sheets of ") +
+                size(options.sheet_width, options.sheet_height) + ", " + std::to_string(nesting.per_sheet) +
+                " on a full one";
+    }
+    text += std::string(options.remnant && !with_remnant ? " (none fits on the remnant)" : "") + "; " +
+            to_fixed(100 * nesting.utilisation, 1) + " % used";
     if (left.x() > 0 && left.y() > 0) {
         text += "; " + size(left.x(), left.y()) + " left over on the last";
     }

@@ -9,22 +9,38 @@
 
 namespace rhombloom::cli {
 
-Progress::Progress() : terminal_(::isatty(STDERR_FILENO) == 1), start_(std::chrono::steady_clock::now()) {}
+namespace {
+
+bool line_shown = false; // there is one terminal
+
+//! Takes the line of progress off the terminal: results may follow there.
+void wipe()
+{
+    if (line_shown) {
+        std::fputs("\r\x1b[K", stderr);
+        std::fflush(stderr);
+        line_shown = false;
+    }
+}
+
+} // namespace
+
+Progress::Progress(std::chrono::milliseconds patience)
+    : terminal_(::isatty(STDERR_FILENO) == 1), patience_(patience), start_(std::chrono::steady_clock::now())
+{
+}
 
 Progress::~Progress()
 {
-    if (shown_) {
-        std::fputs("\r\x1b[K", stderr);
-    }
+    wipe();
 }
 
 void Progress::show(const std::string& what)
 {
-    constexpr auto patience = std::chrono::milliseconds(400);
-    if (terminal_ && std::chrono::steady_clock::now() - start_ > patience) {
+    if (terminal_ && std::chrono::steady_clock::now() - start_ >= patience_) {
         std::fprintf(stderr, "\r\x1b[K%s ...", what.c_str());
         std::fflush(stderr);
-        shown_ = true;
+        line_shown = true;
     }
 }
 
@@ -58,6 +74,7 @@ Expected<Replay> replay_design(const std::string& path, const Design& design, Pr
 
 Expected<void> print(const std::string& text)
 {
+    wipe();
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
         return machine_failure("cannot write to the standard output: is the disk full?");
     }

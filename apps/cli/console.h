@@ -11,7 +11,8 @@ namespace rhombloom::cli {
 class Progress
 {
 public:
-    Progress();
+    //! \param patience  how long the work must last before anything is shown; 0 for what is known to be long
+    explicit Progress(std::chrono::milliseconds patience = std::chrono::milliseconds(400));
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     ~Progress(); //!< wipes the line
@@ -20,7 +21,7 @@ public:
 
 private:
     bool terminal_;
-    bool shown_ = false;
+    std::chrono::milliseconds patience_;
     std::chrono::steady_clock::time_point start_;
 };
 
@@ -30,7 +31,8 @@ Expected<Design> load_design(const std::string& path);
 //! \brief Replay with progress; refusals begin with the file's name.
 Expected<Replay> replay_design(const std::string& path, const Design& design, Progress& progress);
 
-//! \brief Results go to stdout; a full disk or closed pipe is the machine's failure.
+//! \brief Results go to stdout, after the line of progress is gone; a full disk or closed pipe is the machine's
+//! failure.
 Expected<void> print(const std::string& text);
 
 } // namespace rhombloom::cli

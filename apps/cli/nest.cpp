@@ -55,12 +55,15 @@ Expected<int> run_nest(const NestCommand& command)
     if (!outline) {
         return tl::make_unexpected(outline.error());
     }
+    Progress progress(std::chrono::milliseconds(0));
+    progress.show("nesting");
     const auto nesting = nest(*outline, *options).map_error([&](const Error& error) {
         return Error{command.outline + ": " + error.message, error.kind};
     });
     if (!nesting) {
         return tl::make_unexpected(nesting.error());
     }
+    progress.show("writing " + std::to_string(nesting->sheets.size()) + " sheets");
     if (auto ok = save_folder(command.output, nesting_files(*outline, *options, *nesting)); !ok) {
         return tl::make_unexpected(ok.error());
     }

@@ -1,6 +1,7 @@
 """Bad input gets one sentence on stderr that names the place, the right exit code, and nothing half-written."""
 import os
 import pathlib
+import pty
 import resource
 import shutil
 import subprocess
@@ -113,6 +114,16 @@ for command in ["fabricate", "check", "embed", "shapes", "plan", "nest", "import
             b"Example: rhombloom " + command.encode() not in told[1].stdout:
         problems.append(f"{command} --version and --help: {told}")
 expect_nothing_in(work / "out", "wrong usage")
+
+# On a terminal, progress is gone before the result is printed beside it.
+(work / "piece.json").write_text('{"outline": [[0, 0], [60, 0], [60, 40]]}')
+ours, theirs = pty.openpty()
+nested = subprocess.run([program, "nest", work / "piece.json", "-o", work / "nested", "--count", "2", "--sheet", "100x90"],
+                        stdout=theirs, stderr=theirs)
+shown = os.read(ours, 10000).decode()
+checked += 1
+if nested.returncode != 0 or "nesting ..." not in shown or "\r\x1b[Koutline of 60 x 40 mm: 2 copies" not in shown:
+    problems.append(f"nest on a terminal shows {shown!r}")
 
 shutil.rmtree(work)
 print("\n".join(problems) or f"{checked} bad inputs refused as they should be")
