@@ -5,6 +5,9 @@
 
 #include <Eigen/Geometry>
 
+#include "core/text.h"
+#include "core/units.h"
+
 namespace rhombloom {
 
 namespace {
@@ -63,6 +66,27 @@ double distance_to_inside(const Vec3& a, const Vec3& b, const Triangle& t)
                     foot_inside(b, t, normal) ? std::abs(at_b) : 1e300);
 }
 
+//! Solid angle that a triangle covers, seen from \p p, as a share of the sphere; its sign tells the side.
+double covered_share(const Vec3& p, const Triangle& t)
+{
+    const Vec3 a = t[0] - p, b = t[1] - p, c = t[2] - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    const double below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+    return std::atan2(a.dot(b.cross(c)), below) / two_pi;
+}
+
+double winding_number(const Surface& surface, const Vec3& p)
+{
+    double sum = 0;
+    for (const Face f : surface.faces()) {
+        const Quad q = quad(surface, f);
+        const auto corner = [&](int i) { return surface.point(Vertex(q[i])); };
+        sum +=
+            covered_share(p, {corner(0), corner(1), corner(2)}) + covered_share(p, {corner(0), corner(2), corner(3)});
+    }
+    return sum;
+}
+
 } // namespace
 
 const std::vector<Bulb>& common_bulbs()
@@ -100,6 +124,37 @@ double bulb_clearance(const Surface& surface, const Bulb& bulb, const BulbPose& 
         }
     }
     return nearest - radius;
+}
+
+std::vector<BulbFit> bulbs_in_middle(const Surface& surface)
+{
+    Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+    for (const Vertex v : surface.vertices()) {
+        low = low.cwiseMin(surface.point(v));
+        high = high.cwiseMax(surface.point(v));
+    }
+    const Vec3 middle = 0.5 * (low + high);
+    std::vector<BulbFit> fits;
+    if (surface.n_faces() == 0 || winding_number(surface, middle) < 0.5) {
+        return fits;
+    }
+    for (const Bulb& bulb : common_bulbs()) {
+        const BulbPose pose{middle + Vec3(0, 0, 0.5 * bulb.length)};
+        fits.push_back({bulb, bulb_clearance(surface, bulb, pose)});
+    }
+    return fits;
+}
+
+std::string bulbs_text(const std::vector<BulbFit>& fits)
+{
+    std::string fit, tight;
+    for (const BulbFit& f : fits) {
+        std::string& list = f.clearance >= least_bulb_clearance ? fit : tight;
+        list += (list.empty() ? "" : ", ") + f.bulb.name + " (" +
+                (f.clearance > 0 ? to_fixed(std::floor(f.clearance), 0) + " mm" : "touches") + ")";
+    }
+    return (fit.empty() ? "" : "Bulbs that have room in its middle: " + fit + ". ") +
+           (tight.empty() ? "" : "Too close to the elements there: " + tight + ". ");
 }
 
 } // namespace rhombloom

@@ -30,6 +30,23 @@ struct BulbPose
 //! element's hull and not one of its folds is measured; the bow of the long sides leans outwards and only adds room.
 double bulb_clearance(const Surface& surface, const Bulb& bulb, const BulbPose& pose);
 
+//! mm between a bulb and the elements that a lamp should have.
+inline constexpr double least_bulb_clearance = 30;
+
+//! A bulb and its clearance when it hangs, pointing down, with its middle in the middle of the surface's bounds.
+struct BulbFit
+{
+    Bulb bulb;
+    double clearance = 0; //!< mm, see bulb_clearance()
+};
+
+//! \brief The common bulbs in the middle of the surface; none when the middle does not lie inside, as in a ring or a
+//! sheet (by winding number; openings count as open, so half of all directions must be covered).
+std::vector<BulbFit> bulbs_in_middle(const Surface& surface);
+
+//! \brief For the maker: which of the common bulbs keep #least_bulb_clearance in the middle; empty when it is outside.
+std::string bulbs_text(const std::vector<BulbFit>& fits);
+
 //! \brief Distance between the segment a-b and a triangle, mm; 0 when it passes through.
 double segment_triangle_distance(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& triangle);
 

@@ -154,7 +154,8 @@ Expected<Kit> make_kit(const Design& design, const Replay& replay, const Piece& 
     if (auto ok = add_parts(kit, design, replay, plan, piece, options); !ok) {
         return tl::make_unexpected(ok.error());
     }
-    const Summary summary{design.title, piece, build, kit.cut, kit.scorecard, kit.warnings, options, design};
+    const std::vector<BulbFit> bulbs = bulbs_in_middle(replay.surface);
+    const Summary summary{design.title, piece, build, kit.cut, kit.scorecard, kit.warnings, options, design, bulbs};
     kit.files["README.txt"] = readme_text(summary, kit.files);
     kit.files["kit.json"] = manifest_json(summary, kit.files);
     return kit;

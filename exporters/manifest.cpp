@@ -193,6 +193,9 @@ std::string manifest_json(const Summary& s, const FileSet& files)
         root["imports"] = std::move(list);
     }
     root["warnings"] = s.warnings;
+    for (const BulbFit& fit : s.bulbs) {
+        root["bulb_clearance_mm"][fit.bulb.name] = rounded(fit.clearance, 0.01);
+    }
     for (const auto& [name, bytes] : files) {
         root["files"][name] = {{"bytes", bytes.size()}, {"sha256", sha256(bytes)}};
     }
@@ -210,7 +213,7 @@ std::string readme_text(const Summary& s, const FileSet& files)
     text += "If it becomes a lamp\n" +
             wrapped("LED bulbs only, 8 W or less, at least 30 mm from the elements. The cord carries the "
                     "lamp, not the shade. " +
-                        s.piece.material.heat,
+                        bulbs_text(s.bulbs) + s.piece.material.heat,
                     "  ");
     for (const std::string& warning : s.warnings) {
         text += "\nMind this\n" + wrapped(warning, "  ");

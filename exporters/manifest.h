@@ -1,5 +1,6 @@
 #pragma once
 
+#include "exporters/bulb_clearance.h"
 #include "exporters/kit.h"
 
 namespace rhombloom {
@@ -15,6 +16,7 @@ struct Summary
     const std::vector<std::string>& warnings;
     const KitOptions& options;
     const Design& design;
+    const std::vector<BulbFit>& bulbs;
 };
 
 //! \brief kit.json (DESIGN.md section 7) for these files.

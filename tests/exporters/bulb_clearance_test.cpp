@@ -86,4 +86,17 @@ TEST(BulbClearance, TheBallOfThirtyHoldsASmallGlobe)
     EXPECT_LT(clearance, 80);
 }
 
+TEST(BulbClearance, TellsWhichBulbsHaveRoomInTheMiddle)
+{
+    const auto fits = bulbs_in_middle(base_shape("ball-30", Element{.la = 80, .lb = 88})->surface);
+    ASSERT_EQ(fits.size(), common_bulbs().size());
+    for (const BulbFit& f : fits) {
+        // The ball's inner radius is about 1.4 la: what the capsule leaves of it.
+        EXPECT_NEAR(f.clearance, 110 - 0.5 * f.bulb.length, 15) << f.bulb.name;
+        EXPECT_NE(bulbs_text(fits).find(f.bulb.name), std::string::npos);
+    }
+    EXPECT_TRUE(bulbs_in_middle(base_shape("torus-12x6", Element{})->surface).empty());
+    EXPECT_EQ(bulbs_text({}), "");
+}
+
 } // namespace rhombloom
