@@ -5,6 +5,7 @@
 
 #include "core/form/parallel.h"
 #include "exporters/booklet_pages.h"
+#include "exporters/code_points.h"
 #include "exporters/pdf_finish.h"
 #include "exporters/plan_file.h"
 
@@ -88,17 +89,29 @@ std::string booklet_title(const Design& design, const BookletOptions& options)
     return design.title.empty() ? "Puzzle lamp" : design.title;
 }
 
+//! The openings whose purpose can be written: it is free text, and no reason to have no booklet.
+std::vector<NamedOpening> legible_openings(const PdfFont& font, const Design& design, const Replay& replay)
+{
+    std::vector<NamedOpening> openings = named_openings(design, replay);
+    std::erase_if(openings, [&](const NamedOpening& opening) {
+        const std::vector<char32_t> letters = code_points(opening.purpose);
+        return std::any_of(letters.begin(), letters.end(), [&](char32_t c) { return font.glyph(c).id == 0; });
+    });
+    return openings;
+}
+
 } // namespace
 
 Expected<BookletFiles> booklet_files(const Design& design, const Replay& replay, const AssemblyPlan& plan,
                                      const BookletOptions& options)
 {
     const BookletLayout layout = booklet_layout(replay, plan, options);
-    const BookletSources sources{replay, design.element, plan, layout, piece_contour(design.element)};
     const auto font = PdfFont::load(font_file);
     if (!font) {
         return tl::make_unexpected(font.error());
     }
+    const BookletSources sources{
+        replay, design.element, plan, layout, piece_contour(design.element), legible_openings(**font, design, replay)};
     const StepPictures pictures(**font, sources);
     Writer writer{sources, options, booklet_title(design, options), pictures};
     writer.add_all();

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "exporters/booklet_steps.h"
 #include "exporters/figure_hooks.h"
@@ -12,6 +13,7 @@ namespace {
 constexpr double mm2_per_pt2 = (25.4 / 72) * (25.4 / 72);
 constexpr double enough_area = 66;  // mm2; labels and thick sides take up to 40 of it
 constexpr double enough_width = 17; // points, about 6 mm
+constexpr double least_magnified = 1.4;
 constexpr int first_steps = 6;
 
 //! The shortest distance between opposite sides, roughly: area over the longest diagonal.
@@ -54,14 +56,20 @@ Vec2 free_corner(const StepPlace& place, const Vec2& at, double radius, const st
     return best;
 }
 
-//! Where the elements there and the step's own lie on the page.
+//! Points on the elements there and on the step's own, where they lie on the page.
 std::vector<Vec2> model_on_page(const StepPlace& place, const FigureScene& scene, Face own,
                                 const std::vector<Face>& others)
 {
-    std::vector<Vec2> points = {place.centre + project(scene.camera, element_centre(*scene.surface, own))};
-    for (const Face f : others) {
-        points.push_back(place.centre + project(scene.camera, element_centre(*scene.surface, f)));
-    }
+    std::vector<Vec2> points;
+    const auto add = [&](Face f) {
+        const Vec2 centre = place.centre + project(scene.camera, element_centre(*scene.surface, f));
+        points.push_back(centre);
+        for (const Vec2& corner : outline_of(scene, f)) {
+            points.push_back(0.4 * centre + 0.6 * (place.centre + corner));
+        }
+    };
+    add(own);
+    std::for_each(others.begin(), others.end(), add);
     return points;
 }
 
@@ -83,12 +91,13 @@ Inset inset_at(const StepPlace& place, const Vec3& look_at, double extent, const
 }
 
 //! How far the detail reaches from the element's centre, in the figure's points: with its surroundings, but a thin one
-//! as large as it fits.
+//! as large as it fits. One that is as long as that and no larger then is cut off at its ends.
 double detail_extent(const Polygon& p, double radius)
 {
     constexpr double wanted = 45 / mm2_per_pt2;
     const double reach = reach_of(p);
-    return std::clamp(radius * std::sqrt(polygon_area(p) / wanted), 1.05 * reach, 1.5 * reach);
+    const double extent = std::clamp(radius * std::sqrt(polygon_area(p) / wanted), 1.05 * reach, 1.5 * reach);
+    return std::min(extent, radius / least_magnified);
 }
 
 bool hard_to_see(const FigureScene& scene, Face f, const std::vector<Face>& others)
@@ -111,8 +120,12 @@ std::optional<Inset> inset_for(int k, const Step& step, const StepPlace& place, 
     }
     const int side = step.joins.front().side;
     const Quad q = quad(*scene.surface, f);
-    const Vec3 middle = (scene.surface->point(Vertex(q[side])) + scene.surface->point(Vertex(q[(side + 1) % 4]))) / 2;
-    return inset_at(place, middle, 0.58 * (p[(side + 1) % 4] - p[side]).norm(), model_on_page(place, scene, f, others));
+    const Vec3 begin = scene.surface->point(Vertex(q[side]));
+    const Vec3 end = scene.surface->point(Vertex(q[(side + 1) % 4]));
+    const double whole_side = 0.58 * (p[(side + 1) % 4] - p[side]).norm();
+    const double extent = std::min(whole_side, inset_radius(place) / least_magnified);
+    const double along = 0.5 * extent / whole_side; // a side too long for the detail: about its first hook
+    return inset_at(place, begin + along * (end - begin), extent, model_on_page(place, scene, f, others));
 }
 
 } // namespace
@@ -155,6 +168,33 @@ bool meets_disc(const Polygon& p, double radius)
         inside = inside && side.x() * a.y() - side.y() * a.x() > 0;
     }
     return inside;
+}
+
+//! Where an element's number hides nothing of the next one: on the element, near its middle, within \p radius. Nothing
+//! when the next one covers it: a number there would seem to be its own.
+std::optional<Vec2> place_of_number(const Polygon& element, Polygon own, double radius)
+{
+    constexpr double outside = 1e3;
+    constexpr double hiding = 1e4;
+    constexpr double half_number = 7.5; // points
+    const Vec2 middle = (element[0] + element[1] + element[2] + element[3]) / 4;
+    double least = 1e300;
+    Vec2 best = middle;
+    for (int i = 0; i < 81; ++i) {
+        const double u = 0.1 * (1 + i % 9);
+        const double v = 0.1 * (1 + i / 9);
+        const Vec2 at = (1 - v) * ((1 - u) * element[0] + u * element[1]) + v * (u * element[2] + (1 - u) * element[3]);
+        std::for_each(own.begin(), own.end(), [&](Vec2& corner) { corner -= at; });
+        const double cost = (at - middle).norm() + (at.norm() > radius ? outside + at.norm() : 0) +
+                            (meets_disc(own, half_number) ? hiding : 0);
+        std::for_each(own.begin(), own.end(), [&](Vec2& corner) { corner += at; });
+        if (cost < least) {
+            least = cost;
+            best = at;
+        }
+    }
+    const Vec2 within = best * std::min(1.0, radius / std::max(1e-9, best.norm()));
+    return least < hiding ? std::optional(within) : std::nullopt;
 }
 
 //! What an inset shows, back to front: the element and what it is joined to, with their hooks, among plain elements.
@@ -210,6 +250,12 @@ void draw_leader(PdfCanvas& canvas, const Inset& inset, const Vec2& at, double r
     canvas.arc(at, ring, 0, two_pi, line);
 }
 
+//! The distance to the nearest edge of the cell.
+double room_round(const Vec2& at, const Box& box)
+{
+    return std::min((at - box.min).minCoeff(), (box.max - at).minCoeff());
+}
+
 } // namespace
 
 void draw_inset(PdfCanvas& canvas, const BookletSources& sources, int k, const std::vector<int>& face,
@@ -228,8 +274,9 @@ void draw_inset(PdfCanvas& canvas, const BookletSources& sources, int k, const s
     }
     const Paint paint = step.kind == StepKind::Remove ? Paint::Removed : Paint::Next;
     const Detail shown = detail(scene, {own, paint}, inset.radius, built, joined_faces(step, face));
-    draw_leader(canvas, inset, place.centre + project(place.camera, inset.camera.look_at),
-                inset.radius * place.camera.scale / inset.camera.scale);
+    const Vec2 spot = place.centre + project(place.camera, inset.camera.look_at);
+    draw_leader(canvas, inset, spot,
+                std::min(inset.radius * place.camera.scale / inset.camera.scale, room_round(spot, place.box) - 2));
     canvas.disc(inset.centre, inset.radius, 0xFFFFFF, {0.8, 0x404040, 0});
     canvas.clipped_to_disc(inset.centre, inset.radius - 0.4, [&] {
         canvas.shifted(inset.centre, [&] {
@@ -238,12 +285,13 @@ void draw_inset(PdfCanvas& canvas, const BookletSources& sources, int k, const s
             }
             draw_pieces(canvas, scene, shown.pieces, sources.contour);
             for (const Join& join : step.joins) {
-                const Vec2 at = project(scene.camera, element_centre(*scene.surface, Face(face[join.to])));
-                if (at.norm() > 1.6 * inset.radius) {
+                const Polygon joined = outline_of(scene, Face(face[join.to]));
+                const bool near = ((joined[0] + joined[1] + joined[2] + joined[3]) / 4).norm() < 1.6 * inset.radius;
+                const auto at = place_of_number(joined, outline_of(scene, own), inset.radius - 9);
+                if (!near || !at) {
                     continue;
                 }
-                const Vec2 inward = at * std::min(1.0, (inset.radius - 9) / std::max(1e-9, at.norm()));
-                canvas.text(std::to_string(names[join.to]), inward + Vec2(0, 2.6),
+                canvas.text(std::to_string(names[join.to]), *at + Vec2(0, 2.6),
                             {7.5, 0x000000, Align::Centre, 0xFFFFFF});
             }
         });

@@ -110,8 +110,8 @@ void choose_grid(const Replay& replay, const AssemblyPlan& plan, const BookletOp
 {
     if (options.steps_per_page > 0) {
         use_grid(chapter, options.steps_per_page);
-    } else if (chapter.count <= 2) {
-        use_grid(chapter, chapter.count);
+    } else if (chapter.count <= 4) {
+        use_grid(chapter, chapter.count <= 2 ? chapter.count : 4);
     } else {
         use_grid(chapter, 6);
         lay_out(replay, plan, paper, chapter, places);

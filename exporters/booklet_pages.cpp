@@ -1,9 +1,7 @@
 #include "exporters/booklet_pages.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
 #include "core/text.h"
 
@@ -56,52 +54,16 @@ void draw_faces(PdfCanvas& canvas, const FigureScene& scene, const std::vector<F
     }
 }
 
-Camera model_camera(const BookletSources& sources, int view, const Vec2& half)
-{
-    return fitted_camera(sources.replay.surface, all_faces(sources.replay.surface), {view}, 0.97 * half);
-}
-
-//! Where the plane of a triangle is at (x, y), or nothing beside it.
-std::optional<double> height_at(const std::array<Vec3, 3>& t, const Vec3& at)
-{
-    const auto turn = [](const Vec3& a, const Vec3& b, const Vec3& c) {
-        return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-    };
-    const double area = turn(t[0], t[1], t[2]);
-    const double u = turn(at, t[1], t[2]) / area;
-    const double v = turn(t[0], at, t[2]) / area;
-    const bool inside = area != 0 && u >= 0 && v >= 0 && u + v <= 1;
-    return inside ? std::optional(u * t[0].z() + v * t[1].z() + (1 - u - v) * t[2].z()) : std::nullopt;
-}
-
-//! The highest point of the model above its centre of mass: it hangs there as it stands. Where there is nothing above
-//! the centre: the highest of all.
-Vec3 hanging_point(const Surface& surface)
-{
-    Vec3 centre = Vec3::Zero();
-    Vec3 highest = Vec3::Constant(-1e300);
-    for (const Face f : surface.faces()) {
-        centre += element_centre(surface, f) / static_cast<double>(surface.n_faces());
-    }
-    std::optional<double> top;
-    for (const Face f : surface.faces()) {
-        const Quad q = quad(surface, f);
-        const auto corner = [&](int k) -> Vec3 { return surface.point(Vertex(q[k])); };
-        for (const auto& t :
-             {std::array{corner(0), corner(1), corner(2)}, std::array{corner(0), corner(2), corner(3)}}) {
-            const std::optional<double> z = height_at(t, centre);
-            top = z && (!top || *z > *top) ? z : top;
-            highest = t[0].z() > highest.z() ? t[0] : highest;
-        }
-    }
-    return top && *top > centre.z() ? Vec3(centre.x(), centre.y(), *top) : highest;
-}
-
 } // namespace
 
 std::string chapter_destination(int chapter)
 {
     return "chapter-" + std::to_string(chapter + 1);
+}
+
+Camera model_camera(const BookletSources& sources, int view, const Vec2& half)
+{
+    return fitted_camera(sources.replay.surface, all_faces(sources.replay.surface), {view}, 0.97 * half);
 }
 
 Camera draw_model(PdfCanvas& canvas, const BookletSources& sources, const Vec2& centre, const Vec2& half, int view,
@@ -172,45 +134,6 @@ void draw_chapter(PdfCanvas& canvas, const BookletSources& sources, int chapter)
     const FigureScene scene{&surface, fitted_camera(surface, faces, {portrait_view}, half)};
     canvas.figure("The goal of this chapter: " + c.title + ".", [&] {
         canvas.shifted(Vec2(paper.width / 2, paper.height * 0.53), [&] { draw_faces(canvas, scene, faces, marked); });
-    });
-}
-
-void draw_last_page(PdfCanvas& canvas, const BookletSources& sources)
-{
-    const PaperSize& paper = sources.layout.paper;
-    draw_heading(canvas, "Finished");
-    if (sources.plan.steps.empty()) {
-        return;
-    }
-    const Step& last = sources.plan.steps.back();
-    const bool hatch = last.kind == StepKind::Insert;
-    const Vec2 centre(paper.width / 2, paper.height * 0.47);
-    const Vec2 half(text_width(sources) / 2, paper.height * 0.29);
-    canvas.figure("The finished model, hung from its top.", [&] {
-        const Camera camera = model_camera(sources, sources.layout.places.back().view, half);
-        const Vec2 top = centre + project(camera, hanging_point(sources.replay.surface));
-        canvas.stroke({Vec2(top.x(), page_margin + 44), top}, {2.2, 0x404040, 0}); // the cord
-        draw_model(canvas, sources, centre, half, sources.layout.places.back().view, hatch ? last.element : -1);
-    });
-    std::string words = "To hang it, lead the cord through the hole where corners meet at the top, or hook the last "
-                        "elements round the lamp holder. ";
-    if (hatch) {
-        const std::vector<int> names =
-            element_names(sources.plan, sources.replay.surface.n_faces(), static_cast<int>(sources.plan.steps.size()));
-        words +=
-            "The dark red element is the bulb hatch: to reach the bulb, unhook it, and afterwards hook it in again as "
-            "step " +
-            std::to_string(sources.plan.steps.size()) + " shows (its neighbours are";
-        for (std::size_t i = 0; i < last.joins.size(); ++i) {
-            words += (i == 0                       ? " "
-                      : i + 1 == last.joins.size() ? " and "
-                                                   : ", ") +
-                     std::to_string(names[last.joins[i].to]);
-        }
-        words += last.joins.empty() ? " none)." : ").";
-    }
-    canvas.tagged("P", [&] {
-        canvas.paragraph(words, Vec2(page_margin, paper.height - page_margin - 76), text_width(sources), {11}, 15);
     });
 }
 

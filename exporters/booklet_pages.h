@@ -26,6 +26,9 @@ std::string plural(int count, const std::string& noun);
 void draw_page_frame(PdfCanvas& canvas, const BookletSources& sources, int chapter, int first_step, int last_step,
                      int page);
 
+//! \brief The camera that draw_model takes.
+Camera model_camera(const BookletSources& sources, int view, const Vec2& half);
+
 //! \brief The finished model, as large as fits about \p centre, from viewpoint \p view; with hooks when it has not too
 //! many elements to see them.
 //! \param marked an element to show in the colour of the next one; -1: none

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/building/bulb_hatch.h"
 #include "exporters/booklet_layout.h"
 #include "exporters/figure_hooks.h"
 
@@ -12,7 +13,8 @@ struct BookletSources
     const Element& element;
     const AssemblyPlan& plan;
     const BookletLayout& layout;
-    PieceContour contour; //!< of the element with its hooks
+    PieceContour contour;               //!< of the element with its hooks
+    std::vector<NamedOpening> openings; //!< of the finished model
 };
 
 //! \brief The pictures of a booklet's steps.
@@ -40,6 +42,9 @@ void draw_inset(PdfCanvas& canvas, const BookletSources& sources, int k, const s
 
 //! \brief What to do in step \p k, in words: which sides go where. Elements are called by the step that put them in.
 std::string step_words(const BookletSources& sources, int k, const std::vector<int>& names);
+
+//! \brief "3, 7 and 12", in ascending order.
+std::string listed(std::vector<int> names);
 
 //! \brief "turn 72° right" and "tip 35° toward you": how to turn the model; empty when the view stays.
 std::vector<std::string> turn_words(const Turn& turn);

@@ -8,17 +8,6 @@ namespace rhombloom {
 
 namespace {
 
-std::string listed(std::vector<int> names)
-{
-    std::sort(names.begin(), names.end());
-    std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        text += i == 0 ? "" : i + 1 == names.size() ? " and " : ", ";
-        text += std::to_string(names[i]);
-    }
-    return text;
-}
-
 //! The elements joined by the step element's long sides and by its short (hooked) ones.
 struct Sides
 {
@@ -58,6 +47,17 @@ std::string parting(const Sides& sides)
 }
 
 } // namespace
+
+std::string listed(std::vector<int> names)
+{
+    std::sort(names.begin(), names.end());
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        text += i == 0 ? "" : i + 1 == names.size() ? " and " : ", ";
+        text += std::to_string(names[i]);
+    }
+    return text;
+}
 
 std::vector<std::string> turn_words(const Turn& turn)
 {

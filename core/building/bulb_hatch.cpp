@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/building/orders.h"
+#include "core/building/viewpoints.h"
 #include "core/model/angular_defect.h"
 
 namespace rhombloom {
@@ -14,13 +15,7 @@ namespace {
 bool is_hatch(const Operation& operation)
 {
     const auto* open = std::get_if<Open>(&operation);
-    if (open == nullptr) {
-        return false;
-    }
-    std::string purpose = open->purpose;
-    std::transform(purpose.begin(), purpose.end(), purpose.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return purpose.find("hatch") != std::string::npos;
+    return open != nullptr && names_hatch(open->purpose);
 }
 
 std::set<int> serials(const Surface& surface)
@@ -32,21 +27,65 @@ std::set<int> serials(const Surface& surface)
     return result;
 }
 
-//! Serials of the elements that shared a side with one that the operation of \p stage took away.
+//! The faces that the operation of \p stage took away, one list for each hole.
+std::vector<std::vector<Face>> holes_made(const Surface& before, const Surface& after)
+{
+    const std::set<int> left = serials(after);
+    std::vector<char> seen(before.n_faces(), 0);
+    std::vector<std::vector<Face>> holes;
+    for (const Face first : before.faces()) {
+        if (left.contains(before.data(first).serial) || seen[first.idx()]) {
+            continue;
+        }
+        std::vector<Face> hole = {first};
+        seen[first.idx()] = 1;
+        for (std::size_t i = 0; i < hole.size(); ++i) {
+            for (const Face g : before.ff_range(hole[i])) {
+                if (!left.contains(before.data(g).serial) && !seen[g.idx()]) {
+                    seen[g.idx()] = 1;
+                    hole.push_back(g);
+                }
+            }
+        }
+        holes.push_back(hole);
+    }
+    return holes;
+}
+
+//! Serials of the elements that share a side with one of the hole.
+std::set<int> serials_beside(const std::vector<Face>& hole, const Surface& before)
+{
+    std::set<int> beside;
+    for (const Face f : hole) {
+        for (const Face g : before.ff_range(f)) {
+            beside.insert(before.data(g).serial);
+        }
+    }
+    return beside;
+}
+
+//! Serials of the elements beside anything that the operation of \p stage took away.
 std::set<int> beside_opening(const Replay& replay, int stage)
 {
     const Surface& before = stage_surface(replay, stage - 1);
-    const std::set<int> after = serials(stage_surface(replay, stage));
     std::set<int> result;
-    for (const Face f : before.faces()) {
-        if (after.contains(before.data(f).serial)) {
-            continue;
-        }
-        for (const Face g : before.ff_range(f)) {
-            result.insert(before.data(g).serial);
-        }
+    for (const auto& hole : holes_made(before, stage_surface(replay, stage))) {
+        result.merge(serials_beside(hole, before));
     }
     return result;
+}
+
+//! The faces of \p surface that once shared a side with the hole and are on a rim still.
+std::vector<int> rim_of(const std::vector<Face>& hole, const Surface& before, const Surface& surface)
+{
+    const std::set<int> beside = serials_beside(hole, before);
+    std::vector<int> faces;
+    for (const Face f : surface.faces()) {
+        if (beside.contains(surface.data(f).serial) && surface.is_boundary(f)) {
+            faces.push_back(f.idx());
+        }
+    }
+    return faces;
 }
 
 bool holds_others(const Surface& surface, Face leaving)
@@ -94,6 +133,38 @@ int best_hatch(const PlanSources& sources, const std::vector<int>& elements)
 }
 
 } // namespace
+
+bool names_hatch(std::string purpose)
+{
+    std::transform(purpose.begin(), purpose.end(), purpose.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return purpose.find("hatch") != std::string::npos;
+}
+
+std::vector<NamedOpening> named_openings(const Design& design, const Replay& replay)
+{
+    std::vector<NamedOpening> result;
+    if (replay.stages.size() != design.operations.size()) {
+        return result;
+    }
+    for (int stage = 1; stage < static_cast<int>(replay.stages.size()); ++stage) {
+        const auto* open = std::get_if<Open>(&design.operations[stage]);
+        if (open == nullptr || open->purpose.empty()) {
+            continue;
+        }
+        const Surface& before = stage_surface(replay, stage - 1);
+        for (const auto& hole : holes_made(before, stage_surface(replay, stage))) {
+            NamedOpening opening{open->purpose, rim_of(hole, before, replay.surface), Vec3::Zero()};
+            for (const int f : opening.beside) {
+                opening.middle += element_centre(replay.surface, Face(f)) / static_cast<double>(opening.beside.size());
+            }
+            if (!opening.beside.empty()) {
+                result.push_back(std::move(opening));
+            }
+        }
+    }
+    return result;
+}
 
 std::vector<int> hatch_elements(const Design& design, const Replay& replay, const Element& element)
 {

@@ -4,6 +4,21 @@
 
 namespace rhombloom {
 
+//! \brief Does the purpose of an opening have the word "hatch"?
+bool names_hatch(std::string purpose);
+
+//! \brief An opening of the final surface that the design made on purpose.
+struct NamedOpening
+{
+    std::string purpose;        //!< as in the design: "lamp holder"
+    std::vector<int> beside;    //!< the elements round it, as faces of the final surface, ascending
+    Vec3 middle = Vec3::Zero(); //!< of those elements, mm
+};
+
+//! \brief The openings with a purpose, in the order of the operations; one operation with images makes several.
+//! \details An opening that later operations have closed again, or built over, is left out.
+std::vector<NamedOpening> named_openings(const Design& design, const Replay& replay);
+
 //! \brief The elements that can be the last one when the design names a bulb hatch: those beside the opening whose
 //! purpose has the word "hatch", as faces of the final surface, the easiest to unhook first.
 //! \details One that must be kept to hold the others together is none. Of several such openings the last one counts.

@@ -45,6 +45,31 @@ TEST(Booklet, GivesEachStepACellOfItsOwnOnEveryGrid)
     }
 }
 
+// Thin elements, wide cells: what the circle shows is larger than in the figure, never smaller.
+TEST(Booklet, MagnifiesInEveryDetail)
+{
+    for (const char* name : {"sheet-1x2", "ball-90", "dome-5x3"}) {
+        const Replay replay = replays::single(name);
+        for (const int grid : {0, 1, 6}) {
+            BookletOptions options;
+            options.steps_per_page = grid;
+            for (const StepPlace& place :
+                 booklet_layout(replay, assembly_plan(replay, Element{}, Order::Best), options).places) {
+                EXPECT_TRUE(!place.inset || place.inset->camera.scale > 1.39 * place.camera.scale) << name << grid;
+            }
+        }
+    }
+}
+
+TEST(Booklet, IsMadeAlsoWhenAPurposeCannotBeWritten)
+{
+    Design design;
+    design.operations = {Place{"body", "ball-30"}, Open{"body", {}, "\u96FB\u7403"}};
+    const Replay replay = replays::opened(replays::single("ball-30"), 7);
+    const AssemblyPlan plan = assembly_plan(replay, design.element, Order::Best);
+    EXPECT_TRUE(booklet_files(design, replay, plan).has_value());
+}
+
 TEST(Booklet, RefusesCharactersThatItsFontLacks)
 {
     BookletOptions options;

@@ -118,4 +118,20 @@ TEST(AssemblyPlan, EndsBesideTheNamedHatch)
     EXPECT_EQ(listing(plan_problems(replay, element, plan)), "");
 }
 
+TEST(NamedOpenings, TellWhatIsRoundThem)
+{
+    Design design;
+    design.operations = {Place{"body", "ball-30"}, Open{"body", {}, "lamp holder"}};
+    const Replay replay = replays::opened(replays::single("ball-30"), 7);
+    const auto found = named_openings(design, replay);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].purpose, "lamp holder");
+    EXPECT_EQ(found[0].beside.size(), 4U);
+    for (const int f : found[0].beside) {
+        EXPECT_TRUE(replay.surface.is_boundary(Face(f)));
+    }
+    design.operations[1] = Open{"body", {}, ""};
+    EXPECT_TRUE(named_openings(design, replay).empty());
+}
+
 } // namespace rhombloom
