@@ -18,7 +18,7 @@ constexpr double to_boundary = 0.99;      // share of the way to a slack or forc
 constexpr double largest_imbalance = 100; // of a hinge's slack times force against the mean
 constexpr double smallest_step = 0.02;    // share of the direction; below, the Hessian is nearly indefinite
 constexpr double arrived = 1e-5;          // gradient; below, it is known which hinges are concave
-constexpr double lag = 2;                 // power of the residual that slack times force may not fall behind
+constexpr double lag = 1.5;               // power of the residual that slack times force may not fall behind
 
 // The share of the direction that keeps every value positive.
 double share_to_zero(const ArrayXd& values, const ArrayXd& steps)
