@@ -129,7 +129,7 @@ Solver ours(int threads)
                 EmbeddingTerms own = terms;
                 Eigen::VectorXd x = start;
                 settle(own, x, options);
-                recorder.record(terms, x);
+                recorder.record(own, x); // without guards, where the shape stands without them
                 return recorder.trace();
             }};
 }
