@@ -115,14 +115,24 @@ for command in ["fabricate", "check", "embed", "shapes", "plan", "nest", "import
         problems.append(f"{command} --version and --help: {told}")
 expect_nothing_in(work / "out", "wrong usage")
 
+
+def shown_on_a_terminal(arguments):
+    """What the program shows on a terminal, and its exit code; None where this machine has no terminal to give."""
+    try:
+        ours, theirs = pty.openpty()
+    except OSError as error:
+        print(f"not looked at: what a terminal shows ({error})")
+        return None
+    code = subprocess.run([program, *arguments], stdout=theirs, stderr=theirs).returncode
+    return code, os.read(ours, 10000).decode()
+
+
 # On a terminal, progress is gone before the result is printed beside it.
 (work / "piece.json").write_text('{"outline": [[0, 0], [60, 0], [60, 40]]}')
-ours, theirs = pty.openpty()
-nested = subprocess.run([program, "nest", work / "piece.json", "-o", work / "nested", "--count", "2", "--sheet", "100x90"],
-                        stdout=theirs, stderr=theirs)
-shown = os.read(ours, 10000).decode()
+shown = shown_on_a_terminal(["nest", work / "piece.json", "-o", work / "nested", "--count", "2", "--sheet", "100x90"])
 checked += 1
-if nested.returncode != 0 or "nesting ..." not in shown or "\r\x1b[Koutline of 60 x 40 mm: 2 copies" not in shown:
+if shown and (shown[0] != 0 or "nesting ..." not in shown[1] or
+              "\r\x1b[Koutline of 60 x 40 mm: 2 copies" not in shown[1]):
     problems.append(f"nest on a terminal shows {shown!r}")
 
 shutil.rmtree(work)
