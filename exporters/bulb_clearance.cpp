@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/design/overlap.h"
 #include "core/text.h"
-#include "core/units.h"
 
 namespace rhombloom {
 
@@ -64,27 +64,6 @@ double distance_to_inside(const Vec3& a, const Vec3& b, const Triangle& t)
     }
     return std::min(foot_inside(a, t, normal) ? std::abs(at_a) : 1e300,
                     foot_inside(b, t, normal) ? std::abs(at_b) : 1e300);
-}
-
-//! Solid angle that a triangle covers, seen from \p p, as a share of the sphere; its sign tells the side.
-double covered_share(const Vec3& p, const Triangle& t)
-{
-    const Vec3 a = t[0] - p, b = t[1] - p, c = t[2] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    const double below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-    return std::atan2(a.dot(b.cross(c)), below) / two_pi;
-}
-
-double winding_number(const Surface& surface, const Vec3& p)
-{
-    double sum = 0;
-    for (const Face f : surface.faces()) {
-        const Quad q = quad(surface, f);
-        const auto corner = [&](int i) { return surface.point(Vertex(q[i])); };
-        sum +=
-            covered_share(p, {corner(0), corner(1), corner(2)}) + covered_share(p, {corner(0), corner(2), corner(3)});
-    }
-    return sum;
 }
 
 } // namespace
