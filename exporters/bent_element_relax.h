@@ -8,8 +8,8 @@ namespace rhombloom {
 //! \details Minimises `sum k (|x_i - x_j| - l)^2 + sum a |x - place|^2` by turns: every segment finds its best
 //! direction, then all points solve one linear system, the same for all elements and iterations (projective dynamics;
 //! Bouaziz et al. 2014). The corners, which lie in the holes, are held by spokes to the holes' rims. Where the whole
-//! outline comes out of length all the same, the places hold less, by steps,
-//! and the outline's segments are wished shorter.
+//! outline comes out of length all the same, the places hold less, by steps, and the outline's segments are wished
+//! shorter.
 class SheetRelaxation
 {
 public:
