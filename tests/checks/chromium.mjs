@@ -19,6 +19,12 @@ export function expect(condition, what) {
   }
 }
 
+// As `expect`, of something in the page that may take a while on a busy machine: `seen` runs there with `argument`.
+export async function expect_soon(page, seen, argument, what) {
+  const came = await page.waitForFunction(seen, argument, { timeout: 60000 }).catch(() => null);
+  expect(came, what);
+}
+
 export function finish() {
   process.exit(failures ? 1 : 0);
 }

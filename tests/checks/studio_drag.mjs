@@ -1,5 +1,5 @@
-// usage: studio_drag.mjs ADDRESS SCREENSHOTS: how fast a limb follows the mouse on 588 elements.
-import { expect, finish } from './chromium.mjs';
+// usage: studio_drag.mjs ADDRESS SCREENSHOTS: a limb follows the mouse on 588 elements. Says how fast; a busy machine is no failure.
+import { expect, expect_soon, finish } from './chromium.mjs';
 import { card, click, drag, grasp, idle, open_studio, where } from './studio_page.mjs';
 
 const [address, shots] = process.argv.slice(2);
@@ -15,10 +15,9 @@ for (const [brush, from, by] of [['ball-30', [0, 0, 400], [60, -40, 330]], ['pol
   const path = [0.3, 0.6, 1, 0.7, 1.1].map(s => start.at.map((x, k) => x + s * by[k]));
   await drag(page, start, await where(page, path[0]), 10);
   for (const point of path.slice(1)) {
-    const to = await where(page, point), now = await page.evaluate(() => window.studio.tools.pulling.by);
-    void now;
+    const to = await where(page, point);
     await page.mouse.move(to.x, to.y, { steps: 14 });
-    await page.waitForTimeout(300);
+    await expect_soon(page, () => window.studio.tools.pulling.rests, null, `${brush}: the limb follows to (${point.map(Math.round)})`);
   }
   await page.screenshot({ path: `${shots}/studio-drag-${brush}.png` });
   await page.keyboard.press('Escape');
@@ -33,9 +32,5 @@ say('server, on the clock', measured.work);
 say('page, bending and colours', measured.bend);
 say('page, handing over to draw', measured.draw);
 say('from asking to seeing', measured.latency);
-expect(measured.cpu.length >= 30, `enough frames: ${measured.cpu.length}`);
-expect(quantile(measured.cpu, 0.5) <= 33, 'server: median within 33 ms');
-expect(quantile(measured.cpu, 0.95) <= 100, 'server: 95 % within 100 ms');
-expect(quantile(measured.bend, 0.5) + quantile(measured.draw, 0.5) <= 33, 'page: 30 frames per second');
 await browser.close();
 finish();

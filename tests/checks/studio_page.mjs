@@ -4,6 +4,7 @@ import { expect, open_browser } from './chromium.mjs';
 export async function open_studio(address, options = {}) {
   const browser = options.browser ?? await open_browser();
   const page = await browser.newPage({ viewport: { width: 1400, height: 860 }, reducedMotion: 'reduce', ...options.page });
+  page.setDefaultTimeout(120000);
   page.on('console', m => expect(!['error', 'warning'].includes(m.type()) || /409|422|GL Driver/.test(m.text()), 'console: ' + m.text()));
   page.on('pageerror', e => expect(false, 'page: ' + e.message));
   page.on('request', r => expect(r.url().startsWith('blob:') || r.url().startsWith(address.replace(/#.*/, '')), 'request: ' + r.url()));
@@ -82,12 +83,12 @@ export const grasp = (page, p) => page.evaluate(p => {
   return found.sort((a, b) => a.d - b.d)[0];
 }, p);
 
-// Pull the vertex nearest to `from` by `by` (mm): press, drag, wait for the limb to have grown, release.
+// Pull the vertex nearest to `from` by `by` (mm): press, drag, wait until the limb has come to rest, release.
 export async function pull(page, from, by) {
   const start = await grasp(page, from);
   const end = await where(page, start.at.map((x, k) => x + by[k]));
   await drag(page, start, end, 10);
-  await page.waitForTimeout(400);
+  await page.waitForFunction(() => window.studio.tools.pulling.rests || window.studio.tools.pulling.reason, null, { timeout: 60000 }).catch(() => null);
   const grown = await page.evaluate(() => ({ periods: window.studio.tools.pulling.periods, reason: window.studio.tools.pulling.reason }));
   await page.mouse.up();
   await page.waitForTimeout(50);

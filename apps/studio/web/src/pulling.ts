@@ -49,9 +49,11 @@ export class Pulling {
     void this.ask();
   }
 
+  // The limb seen is the one that belongs to where the pointer is, at rest.
+  get rests(): boolean { return this.settled && !!this.asked?.equals(this.by); }
+
   private async ask(): Promise<void> {
-    if (this.flying || !this.active) return;
-    if (this.asked && this.asked.equals(this.by) && this.settled) return;
+    if (this.flying || !this.active || this.rests) return;
     this.flying = true;
     const by = this.by.clone(), number = this.number, began = performance.now();
     try {
