@@ -130,8 +130,28 @@ struct BlockColumn
     }
 };
 
+// The strips [first, last) of a block column, whose triangle is done.
 template <int N>
-bool factor_block_column(double* panel, int columns, int first, int strips)
+void finish_block_column(const BlockColumn<N>& block, const double (&triangle)[N][N], const double (&inverse)[N],
+                         int first, int last)
+{
+    int s = first;
+    for (; s + paired <= last; s += paired) {
+        block.template treat<paired>(s, [&](Tile<paired, N>& tile, const double* const(&a)[paired]) {
+            tile.subtract_products(a, block.row, block.first);
+            tile.divide(triangle, inverse);
+        });
+    }
+    for (; s < last; ++s) {
+        block.template treat<1>(s, [&](Tile<1, N>& tile, const double* const(&a)[1]) {
+            tile.subtract_products(a, block.row, block.first);
+            tile.divide(triangle, inverse);
+        });
+    }
+}
+
+template <int N>
+bool factor_block_column(double* panel, int columns, int first, int strips, double* inverses)
 {
     const BlockColumn<N> block(panel, columns, first);
     const int top = first / strip;
@@ -148,39 +168,63 @@ bool factor_block_column(double* panel, int columns, int first, int strips)
     for (int s = top; s < below; ++s) {
         block.template treat<1>(s, [&](Tile<1, N>& tile, const double* const(&)[1]) { tile.divide(triangle, inverse); });
     }
-    int s = below;
-    for (; s + paired <= strips; s += paired) {
-        block.template treat<paired>(s, [&](Tile<paired, N>& tile, const double* const(&a)[paired]) {
-            tile.subtract_products(a, block.row, first);
-            tile.divide(triangle, inverse);
-        });
-    }
-    for (; s < strips; ++s) {
-        block.template treat<1>(s, [&](Tile<1, N>& tile, const double* const(&a)[1]) {
-            tile.subtract_products(a, block.row, first);
-            tile.divide(triangle, inverse);
-        });
+    finish_block_column<N>(block, triangle, inverse, below, strips);
+    for (int j = 0; inverses != nullptr && j < N; ++j) {
+        inverses[first + j] = inverse[j];
     }
     return true;
 }
 
-bool factor(double* panel, int columns, int, int strips)
+bool factor(double* panel, int columns, int strips, double* inverse)
 {
     int first = 0;
     for (; first + 4 <= columns; first += 4) {
-        if (!factor_block_column<4>(panel, columns, first, strips)) {
+        if (!factor_block_column<4>(panel, columns, first, strips, inverse)) {
             return false;
         }
     }
     switch (columns - first) {
     case 1:
-        return factor_block_column<1>(panel, columns, first, strips);
+        return factor_block_column<1>(panel, columns, first, strips, inverse);
     case 2:
-        return factor_block_column<2>(panel, columns, first, strips);
+        return factor_block_column<2>(panel, columns, first, strips, inverse);
     case 3:
-        return factor_block_column<3>(panel, columns, first, strips);
+        return factor_block_column<3>(panel, columns, first, strips, inverse);
     default:
         return true;
+    }
+}
+
+template <int N>
+void factor_rows_of(double* panel, int columns, int column, const double* inverses, int first, int last)
+{
+    const BlockColumn<N> block(panel, columns, column);
+    double triangle[N][N];
+    double inverse[N];
+    for (int i = 0; i < N; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            triangle[i][j] = *at(panel, columns, column + i, column + j);
+        }
+        inverse[i] = inverses[column + i];
+    }
+    finish_block_column<N>(block, triangle, inverse, first, last);
+}
+
+void factor_rows(double* panel, int columns, const double* inverse, int first, int last)
+{
+    int column = 0;
+    for (; column + 4 <= columns; column += 4) {
+        factor_rows_of<4>(panel, columns, column, inverse, first, last);
+    }
+    switch (columns - column) {
+    case 1:
+        return factor_rows_of<1>(panel, columns, column, inverse, first, last);
+    case 2:
+        return factor_rows_of<2>(panel, columns, column, inverse, first, last);
+    case 3:
+        return factor_rows_of<3>(panel, columns, column, inverse, first, last);
+    default:
+        return;
     }
 }
 
@@ -303,4 +347,4 @@ void solve_backward(const double* panel, int columns, int diagonal_strips, int s
     }
 }
 
-constexpr DenseKernels table = {factor, update, solve_forward, solve_backward};
+constexpr DenseKernels table = {factor, factor_rows, update, solve_forward, solve_backward};

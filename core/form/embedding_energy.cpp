@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "core/form/parallel.h"
 #include "core/form/term_kernels.h"
 
 namespace rhombloom {
@@ -15,6 +17,7 @@ using Eigen::VectorXd;
 
 // Below this length (in la) the direction of a spring is noise.
 constexpr double smallest_length = 1e-12;
+constexpr int part_count = 16; // of a large surface's terms; the same for any number of threads, for the same sums
 
 Vector3d point(const VectorXd& x, int v)
 {
@@ -138,6 +141,10 @@ BlockMatrix hessian_matrix(const EmbeddingTerms& terms, HessianPattern& pattern)
         return i < terms.free_count && j < terms.free_count ? block_index(matrix, i, j) : -1;
     };
     pattern = {};
+    pattern.rest.springs.resize(terms.springs.size());
+    pattern.rest.hinges.resize(terms.hinges.size());
+    std::iota(pattern.rest.springs.begin(), pattern.rest.springs.end(), 0);
+    std::iota(pattern.rest.hinges.begin(), pattern.rest.hinges.end(), 0);
     for (const SpringPair& pair : terms.springs) {
         pattern.spring_blocks.push_back({block(pair.a, pair.a), block(pair.b, pair.b), block(pair.a, pair.b)});
     }
@@ -152,18 +159,44 @@ BlockMatrix hessian_matrix(const EmbeddingTerms& terms, HessianPattern& pattern)
     return matrix;
 }
 
+void divide_by(const std::vector<int>& order, const EmbeddingTerms& terms, HessianPattern& pattern)
+{
+    std::vector<int> part_of(terms.vertex_count, -1);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        part_of[order[k]] = static_cast<int>(k * part_count / order.size());
+    }
+    pattern.parts.assign(part_count, {});
+    pattern.rest = {};
+    const auto home = [&](const auto& vertices) -> HessianPart& {
+        const int part = part_of[vertices[0]];
+        const bool inside =
+            part >= 0 && std::all_of(vertices.begin(), vertices.end(), [&](int v) { return part_of[v] == part; });
+        return inside ? pattern.parts[part] : pattern.rest;
+    };
+    for (std::size_t k = 0; k < terms.springs.size(); ++k) {
+        home(std::array{terms.springs[k].a, terms.springs[k].b}).springs.push_back(static_cast<int>(k));
+    }
+    for (std::size_t k = 0; k < terms.hinges.size(); ++k) {
+        home(terms.hinges[k]).hinges.push_back(static_cast<int>(k));
+    }
+}
+
 void embedding_hessian(const EmbeddingTerms& terms, const HessianPattern& pattern, const VectorXd& x,
                        const HessianOptions& options, BlockMatrix& hessian)
 {
+    const auto add = [&](const HessianPart& part) {
+        for (const int k : part.springs) {
+            add_spring(terms, terms.springs[k], pattern.spring_blocks[k], x, options.damping, hessian);
+        }
+        for (const int k : part.hinges) {
+            const HingePoints points = hinge_points(x, terms.hinges[k]);
+            add_hinge(hinge_response(terms.hinge_law, points, k, options), terms.hinges[k], pattern.hinge_blocks[k],
+                      points, hessian);
+        }
+    };
     std::fill(hessian.value.begin(), hessian.value.end(), 0.0);
-    for (std::size_t k = 0; k < terms.springs.size(); ++k) {
-        add_spring(terms, terms.springs[k], pattern.spring_blocks[k], x, options.damping, hessian);
-    }
-    for (std::size_t k = 0; k < terms.hinges.size(); ++k) {
-        const HingePoints points = hinge_points(x, terms.hinges[k]);
-        add_hinge(hinge_response(terms.hinge_law, points, k, options), terms.hinges[k], pattern.hinge_blocks[k], points,
-                  hessian);
-    }
+    parallel_tasks(options.threads, static_cast<int>(pattern.parts.size()), [&](int k) { add(pattern.parts[k]); });
+    add(pattern.rest);
 }
 
 } // namespace rhombloom

@@ -21,14 +21,26 @@ EnergyParts embedding_energy(const EmbeddingTerms& terms, const Eigen::VectorXd&
 //! \brief The same, and the gradient by \p x, zero for the vertices that are held.
 EnergyParts embedding_gradient(const EmbeddingTerms& terms, const Eigen::VectorXd& x, Eigen::VectorXd& gradient);
 
+//! \brief Numbers of terms that are added to the Hessian one after the other.
+struct HessianPart
+{
+    std::vector<int> springs;
+    std::vector<int> hinges;
+};
+
 //! \brief Where the terms' blocks lie in the matrix.
 struct HessianPattern
 {
     std::vector<std::array<int, 3>> spring_blocks; //!< (a, a), (b, b), (a, b); -1: held
     std::vector<std::array<int, 10>> hinge_blocks; //!< (k, l) for k = 0..3, l = 0..k
+    std::vector<HessianPart> parts;                //!< no two touch the same block, so threads may share them out
+    HessianPart rest;                              //!< what comes after the parts; at first everything
 };
 
 BlockMatrix hessian_matrix(const EmbeddingTerms& terms, HessianPattern& pattern);
+
+//! \brief Cut the terms of a large surface into parts by an order in which neighbours are mostly near to each other.
+void divide_by(const std::vector<int>& order, const EmbeddingTerms& terms, HessianPattern& pattern);
 
 //! \brief How the Hessian deviates from the exact one; by default it does not.
 struct HessianOptions
@@ -39,6 +51,7 @@ struct HessianOptions
     double damping = 0;
     //! What each hinge's moment and stiffness count as, instead of their own; null: their own.
     const std::vector<HingeResponse>* hinges = nullptr;
+    int threads = 1; //!< the Hessian does not depend on it
 };
 
 void embedding_hessian(const EmbeddingTerms& terms, const HessianPattern& pattern, const Eigen::VectorXd& x,

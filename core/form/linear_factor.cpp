@@ -8,6 +8,7 @@ namespace rhombloom {
 namespace {
 
 constexpr double smallest_parallel_work = 2e7; // multiplications; below, starting a thread costs more than it brings
+constexpr int parts = 8;                       // of the work; the same for any number of threads, for the same sums
 
 } // namespace
 
@@ -28,6 +29,7 @@ LinearSolver::Factor::Factor(const BlockMatrix& matrix, int thread_count)
     update.assign(tree.fronts.size(), nullptr);
     find_targets(matrix);
     split_into_tasks();
+    find_places();
 }
 
 void LinearSolver::Factor::find_targets(const BlockMatrix& matrix)
@@ -64,7 +66,7 @@ void LinearSolver::Factor::find_targets(const BlockMatrix& matrix)
     first_target.push_back(targets.size());
 }
 
-// Subtrees of at most a quarter of a thread's share become tasks of their own.
+// Subtrees of at most an eighth of the work become tasks of their own.
 void LinearSolver::Factor::split_into_tasks()
 {
     const int n = static_cast<int>(tree.fronts.size());
@@ -78,7 +80,7 @@ void LinearSolver::Factor::split_into_tasks()
         }
     }
     const double total = total_work();
-    const double largest = threads > 1 && total > smallest_parallel_work ? total / (4 * threads) : 2 * total;
+    const double largest = total > smallest_parallel_work ? total / parts : 2 * total;
     for (int f = n - 1; f >= 0;) {
         if (work[f] > largest) {
             top.fronts.push_back(f--);
@@ -94,6 +96,28 @@ void LinearSolver::Factor::split_into_tasks()
         task.stack.resize(stack_size(task.fronts));
     }
     top.stack.resize(stack_size(top.fronts));
+}
+
+// A subtree sees the rows of the fronts above it, which are among those of its root, at places of its own.
+void LinearSolver::Factor::find_places()
+{
+    for (const Front& front : tree.fronts) {
+        places.push_back(front.rows);
+    }
+    place_count = static_cast<int>(tree.order.size());
+    for (Task& task : subtrees) {
+        task.first_outer = place_count;
+        const std::vector<int>& outer = outer_rows(task);
+        const int end = tree.fronts[task.fronts.back()].last;
+        for (const int f : task.fronts) {
+            for (int& row : places[f]) {
+                if (row >= end) {
+                    row = place_count + int(std::lower_bound(outer.begin(), outer.end(), row) - outer.begin());
+                }
+            }
+        }
+        place_count += static_cast<int>(outer.size());
+    }
 }
 
 // Largest fill of the stack: a front's update is built above those of its children, then moved down onto them.

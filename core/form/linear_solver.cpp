@@ -92,6 +92,27 @@ void LinearSolver::Factor::assemble_child(int f, int child, double* update_matri
     }
 }
 
+// Cholesky's columns of the front; the rows below the pivots side by side.
+bool LinearSolver::Factor::factor_panel(int f, int helpers)
+{
+    const FrontShape& shape = shapes[f];
+    double* panel = panels.data() + panel_offset[f];
+    const int below = shape.strips - shape.diagonal_strips;
+    if (helpers == 1 || below < smallest_shared_update) {
+        return dense_kernels().factor(panel, shape.columns, shape.strips, nullptr);
+    }
+    std::vector<double> inverse(shape.columns);
+    if (!dense_kernels().factor(panel, shape.columns, shape.diagonal_strips, inverse.data())) {
+        return false;
+    }
+    const int chunks = 4 * helpers;
+    parallel_tasks(helpers, chunks, [&](int c) {
+        dense_kernels().factor_rows(panel, shape.columns, inverse.data(), shape.diagonal_strips + below * c / chunks,
+                                    shape.diagonal_strips + below * (c + 1) / chunks);
+    });
+    return true;
+}
+
 void LinearSolver::Factor::subtract_update(int f, double* update_matrix, int helpers) const
 {
     const FrontShape& shape = shapes[f];
@@ -127,8 +148,7 @@ bool LinearSolver::Factor::factor_fronts(const BlockMatrix& matrix, double shift
                 bottom = std::min(bottom, update[child]);
             }
         }
-        double* panel = panels.data() + panel_offset[f];
-        if (!dense_kernels().factor(panel, shape.columns, shape.diagonal_strips, shape.strips)) {
+        if (!factor_panel(f, helpers)) {
             return false;
         }
         subtract_update(f, own, helpers);
@@ -217,63 +237,82 @@ bool LinearSolver::factor(const BlockMatrix& matrix, double shift)
 }
 
 // A front's pivots and the rows below it, in strips.
-void LinearSolver::Factor::gather(const Eigen::VectorXd& y, std::size_t f, std::vector<double>& local) const
+void LinearSolver::Factor::gather(const Eigen::VectorXd& y, int f, std::vector<double>& local) const
 {
-    const Front& front = tree.fronts[f];
     local.assign(std::size_t(strip) * shapes[f].strips, 0.0);
-    std::copy_n(y.data() + 3 * front.first, shapes[f].columns, local.data());
+    std::copy_n(y.data() + 3 * tree.fronts[f].first, shapes[f].columns, local.data());
     double* below = local.data() + strip * shapes[f].diagonal_strips;
-    for (const int row : front.rows) {
-        below = std::copy_n(y.data() + 3 * row, 3, below);
+    for (const int place : places[f]) {
+        below = std::copy_n(y.data() + 3 * place, 3, below);
     }
 }
 
-void LinearSolver::Factor::solve_forward(Eigen::VectorXd& y, std::size_t f, std::vector<double>& local) const
+void LinearSolver::Factor::solve_forward(Eigen::VectorXd& y, const std::vector<int>& fronts) const
 {
-    const FrontShape& shape = shapes[f];
-    gather(y, f, local);
-    dense_kernels().solve_forward(&panels[panel_offset[f]], shape.columns, shape.diagonal_strips, shape.strips,
-                                  local.data());
-    std::copy_n(local.data(), shape.columns, y.data() + 3 * tree.fronts[f].first);
-    const double* below = local.data() + strip * shape.diagonal_strips;
-    for (const int row : tree.fronts[f].rows) {
-        std::copy_n(below, 3, y.data() + 3 * row);
-        below += 3;
+    std::vector<double> local;
+    for (const int f : fronts) {
+        const FrontShape& shape = shapes[f];
+        gather(y, f, local);
+        dense_kernels().solve_forward(&panels[panel_offset[f]], shape.columns, shape.diagonal_strips, shape.strips,
+                                      local.data());
+        std::copy_n(local.data(), shape.columns, y.data() + 3 * tree.fronts[f].first);
+        const double* below = local.data() + strip * shape.diagonal_strips;
+        for (const int place : places[f]) {
+            std::copy_n(below, 3, y.data() + 3 * place);
+            below += 3;
+        }
     }
 }
 
-void LinearSolver::Factor::solve_backward(Eigen::VectorXd& y, std::size_t f, std::vector<double>& local,
-                                          std::vector<double>& scratch) const
+void LinearSolver::Factor::solve_backward(Eigen::VectorXd& y, const std::vector<int>& fronts) const
 {
-    const FrontShape& shape = shapes[f];
-    gather(y, f, local);
-    scratch.resize(std::size_t(strip) * shape.columns);
-    dense_kernels().solve_backward(&panels[panel_offset[f]], shape.columns, shape.diagonal_strips, shape.strips,
-                                   local.data(), scratch.data());
-    std::copy_n(local.data(), shape.columns, y.data() + 3 * tree.fronts[f].first);
+    std::vector<double> local;
+    std::vector<double> scratch;
+    for (std::size_t k = fronts.size(); k-- > 0;) {
+        const FrontShape& shape = shapes[fronts[k]];
+        gather(y, fronts[k], local);
+        scratch.resize(std::size_t(strip) * shape.columns);
+        dense_kernels().solve_backward(&panels[panel_offset[fronts[k]]], shape.columns, shape.diagonal_strips,
+                                       shape.strips, local.data(), scratch.data());
+        std::copy_n(local.data(), shape.columns, y.data() + 3 * tree.fronts[fronts[k]].first);
+    }
 }
 
+// The subtrees side by side. What each subtracts from the rows above it is gathered at places of its own behind the
+// unknowns, and added in the order of the subtrees.
 Eigen::VectorXd LinearSolver::solve(const Eigen::VectorXd& right_side) const
 {
     const Factor& f = *factor_;
     const std::size_t blocks = f.tree.order.size();
-    Eigen::VectorXd y(3 * blocks);
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(3 * f.place_count);
     for (std::size_t k = 0; k < blocks; ++k) {
         y.segment<3>(3 * k) = right_side.segment<3>(3 * f.tree.order[k]);
     }
-    std::vector<double> local;
-    std::vector<double> scratch;
-    for (std::size_t k = 0; k < f.tree.fronts.size(); ++k) {
-        f.solve_forward(y, k, local);
-    }
-    for (std::size_t k = f.tree.fronts.size(); k-- > 0;) {
-        f.solve_backward(y, k, local, scratch);
-    }
+    const auto for_outer_rows = [&](const auto& action) {
+        for (const Task& subtree : f.subtrees) {
+            int place = subtree.first_outer;
+            for (const int row : f.outer_rows(subtree)) {
+                action(row, place++);
+            }
+        }
+    };
+    const int tasks = static_cast<int>(f.subtrees.size());
+    parallel_tasks(f.threads, tasks, [&](int k) { f.solve_forward(y, f.subtrees[k].fronts); });
+    for_outer_rows([&](int row, int place) { y.segment<3>(3 * row) += y.segment<3>(3 * place); });
+    f.solve_forward(y, f.top.fronts);
+    f.solve_backward(y, f.top.fronts);
+    for_outer_rows([&](int row, int place) { y.segment<3>(3 * place) = y.segment<3>(3 * row); });
+    parallel_tasks(f.threads, tasks, [&](int k) { f.solve_backward(y, f.subtrees[k].fronts); });
     Eigen::VectorXd x(3 * blocks);
     for (std::size_t k = 0; k < blocks; ++k) {
         x.segment<3>(3 * f.tree.order[k]) = y.segment<3>(3 * k);
     }
     return x;
+}
+
+const std::vector<int>& LinearSolver::order() const
+{
+    return factor_->tree.order;
 }
 
 double LinearSolver::work() const

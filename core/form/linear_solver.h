@@ -26,6 +26,9 @@ public:
     //! \brief Solve with the last factorisation, which must have succeeded.
     Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const;
 
+    //! \brief The block rows in the order of elimination: parts of the surface, one after the other.
+    const std::vector<int>& order() const;
+
     //! \brief Multiplications of one factorisation.
     double work() const;
 

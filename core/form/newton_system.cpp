@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/form/minimise.h"
+
 namespace rhombloom {
 
 namespace {
@@ -25,13 +27,19 @@ double mean_diagonal(const BlockMatrix& matrix)
 } // namespace
 
 NewtonSystem::NewtonSystem(const EmbeddingTerms& terms, int threads)
-    : terms_(terms), hessian_(hessian_matrix(terms, pattern_)), solver_(hessian_, threads), shift_(rigid_shift)
+    : terms_(terms), hessian_(hessian_matrix(terms, pattern_)), solver_(hessian_, threads), threads_(threads),
+      shift_(rigid_shift)
 {
+    if (is_large(terms)) {
+        divide_by(solver_.order(), terms, pattern_);
+    }
 }
 
 bool NewtonSystem::factor(const Iterate& iterate, const HessianOptions& options)
 {
-    embedding_hessian(terms_, pattern_, iterate.x, options, hessian_);
+    HessianOptions shared = options;
+    shared.threads = threads_;
+    embedding_hessian(terms_, pattern_, iterate.x, shared, hessian_);
     return solver_.factor(hessian_, shift_ * mean_diagonal(hessian_));
 }
 

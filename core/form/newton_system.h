@@ -31,6 +31,7 @@ private:
     HessianPattern pattern_;
     BlockMatrix hessian_;
     LinearSolver solver_;
+    int threads_;
     double damping_ = 0;
     double shift_;
 };
