@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 // Below this length (in la) the direction of a spring is noise.
 constexpr double smallest_length = 1e-12;
-constexpr int part_count = 16; // of a large surface's terms; the same for any number of threads, for the same sums
+constexpr int part_count = 8; // of a large surface's terms; the same for any number of threads, for the same sums
 
 Vector3d point(const VectorXd& x, int v)
 {

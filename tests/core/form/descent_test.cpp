@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/form/elimination_tree.h"
 #include "core/form/graph_laplacian.h"
 #include "core/form/limited_memory.h"
 #include "core/form/minimise.h"
@@ -64,6 +65,32 @@ TEST(LimitedMemory, WithTheInverseHessianAsSeedIsNewtonsMethod)
     const VectorXd d =
         LimitedMemory(3).direction(gradient, [&](const VectorXd& g) { return VectorXd(g.cwiseQuotient(stiffness)); });
     EXPECT_LT((d + gradient.cwiseQuotient(stiffness)).norm(), 1e-15);
+}
+
+TEST(EmbeddingHessian, IsTheSameInPartsAndWithAnyNumberOfThreads)
+{
+    const Surface surface = shapes::ball_surface(4);
+    EmbedOptions options;
+    options.convex_weight = 0.1;
+    const EmbeddingTerms terms = embedding_terms(surface, {}, options);
+    const VectorXd x = positions(surface);
+    HessianPattern pattern;
+    BlockMatrix whole = hessian_matrix(terms, pattern);
+    embedding_hessian(terms, pattern, x, {}, whole);
+    divide_by(fill_reducing_order(whole), terms, pattern);
+    EXPECT_LT(pattern.rest.hinges.size(), terms.hinges.size() / 3); // the rest is for one thread
+    BlockMatrix parts = whole;
+    embedding_hessian(terms, pattern, x, {}, parts);
+    const auto values = [](const BlockMatrix& matrix) {
+        return VectorXd(Eigen::Map<const VectorXd>(matrix.value.data(), Eigen::Index(matrix.value.size())));
+    };
+    EXPECT_LT((values(parts) - values(whole)).lpNorm<Eigen::Infinity>(),
+              1e-12 * values(whole).lpNorm<Eigen::Infinity>());
+    for (const int threads : {2, 3}) {
+        BlockMatrix shared = whole;
+        embedding_hessian(terms, pattern, x, {0, nullptr, threads}, shared);
+        EXPECT_EQ(shared.value, parts.value) << threads;
+    }
 }
 
 // On a surface that counts as large the same shape has to come out by the other way.
