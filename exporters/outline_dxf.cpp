@@ -274,7 +274,8 @@ Expected<double> millimetres_per_unit(const std::vector<DxfGroup>& groups)
         const auto unit = units.find(whole(dxf_number(groups[i + 1])));
         if (unit == units.end()) {
             return refuse("$INSUNITS is " + std::string(groups[i + 1].value) +
-                          "; expected 0 or 4 (mm), 1 (inches), 2 (feet), 5 (cm) or 6 (m)");
+                          "; expected 4 (mm), 5 (cm), 14 (dm), 6 (m), 13 (micrometres), 1 (inches), 2 (feet), 8 "
+                          "(microinches), 9 (mils), 10 (yards) or 0 (none, read as mm)");
         }
         return unit->second;
     }

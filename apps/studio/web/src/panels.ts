@@ -1,18 +1,17 @@
-// The panels round the view: top bar, library, parts, history, status.
+// The panels round the view: top bar, parts, history, status; the library has its own file.
 import * as api from './api';
 import { button, fill, h, icon, menu } from './dom';
 import { bounds } from './geometry';
 import { historyPanel } from './history';
 import { overlayLimits, type Overlay } from './colours';
 import type { Layouts } from './layouts';
+import { Library } from './library';
 import { pieceRow } from './piece';
 import { reason } from './reasons';
 import type { Store, Symmetry } from './store';
 import type { Tool, Tools } from './tools';
 import type { View } from './view';
 import { language, number, setLanguage, t } from './words';
-
-export interface Shape { name: string; summary: string; elements: number; open: boolean; }
 
 interface Figures { count: number; sheets: number; minutes: number; mass_g: number; }
 
@@ -34,39 +33,23 @@ const largestUpload = 8_000_000; // bytes, as the server has it
 const folds = [2, 3, 4, 5, 6, 8];
 
 export class Panels {
-  private shapes: Shape[] = [];
-  private pictures = new Map<string, string>();
+  private readonly library: Library;
   private figures: Figures | null = null;
   private figuresFor = '';
-  private dropped = -1e9; // when a shape was let go
 
   constructor(private readonly store: Store, private readonly view: View, private readonly tools: Tools,
-    private readonly layouts: Layouts, private readonly actions: { make(): void; help(): void }) {
+    layouts: Layouts, private readonly actions: { make(): void; help(): void }) {
     store.listeners.push(() => this.update());
     tools.listeners.push(() => this.update());
     tools.merging.listeners.push(() => this.update());
     tools.pulling.listeners.push(() => this.choice());
-    layouts.listeners.push(() => this.library());
+    this.library = new Library(store, tools, layouts, () => this.update());
   }
 
   async start(): Promise<void> {
-    this.shapes = await api.get<Shape[]>('/api/shapes');
-    this.library();
+    await this.library.load();
     this.update();
-    for (const shape of this.shapes) {
-      await this.thumbnail(shape.name);
-    }
-  }
-
-  private async thumbnail(name: string): Promise<void> {
-    try {
-      const address = await api.picture('/api/thumbnail?shape=' + encodeURIComponent(name));
-      this.pictures.set(name, address);
-      const blank = $('library').querySelector(`[data-shape="${name}"] .blank`);
-      blank?.replaceWith(h('img', { src: address, alt: '' }));
-    } catch {
-      // A shape without a picture still has its name.
-    }
+    await this.library.draw();
   }
 
   update(): void {
@@ -78,9 +61,7 @@ export class Panels {
     this.legend();
     const empty = this.store.state.parts.length === 0;
     $('hint').textContent = t(empty ? 'Click a shape in the library, or drag it into this view, to begin.' : hints[this.tools.tool]);
-    for (const card of $('library').querySelectorAll<HTMLElement>('.shape')) {
-      card.setAttribute('aria-pressed', String(card.dataset.shape === this.tools.brush));
-    }
+    this.library.mark();
     document.title = (this.store.state.title || t('Untitled')) + ' – rhombloom';
   }
 
@@ -161,84 +142,8 @@ export class Panels {
 
   private toggleLanguage(): void {
     setLanguage(language === 'de' ? 'en' : 'de');
-    this.library();
+    this.library.show();
     this.update();
-  }
-
-  library(): void {
-    const card = (name: string, label: string, small: string, title: string, press: (e: MouseEvent) => void, carry: (e: PointerEvent) => void) => {
-      const image = this.pictures.get(name);
-      return h('button', { type: 'button', class: 'shape', title, 'data-shape': name, 'aria-pressed': String(this.tools.brush === name),
-        onclick: ((e: MouseEvent) => { if (performance.now() - this.dropped > 300) press(e); }) as EventListener, onpointerdown: ((e: PointerEvent) => carry(e)) as EventListener },
-      image ? h('img', { src: image, alt: '' }) : h('div', { class: 'blank' }), h('span', {}, label), h('small', {}, small));
-    };
-    const shapes = this.shapes.map(s => card(s.name, s.name, `${s.elements} ${t('elements')}`, s.summary,
-      e => this.press(e, s.name), e => this.carry(e, s.name)));
-    const own = this.layouts.saved.map((l, k) => card('layout:' + k, l.name, `${l.elements.length} ${t('elements')}`, l.name, () => this.layouts.open(k), e => this.carry(e, l.name, l)));
-    const other = h('input', { class: 'other', placeholder: t('Other shape') + ': polar-3x8', 'aria-label': t('Other shape'), spellcheck: 'false',
-      onchange: (() => void this.addShape(other.value.trim())) as EventListener });
-    fill($('library'), h('h2', {}, t('Library')), h('div', { class: 'shapes', role: 'group', 'aria-label': t('Library') }, ...shapes), other,
-      h('h2', {}, t('My layouts'), button(t('New layout'), 'draw', () => this.layouts.open(-1), { class: 'small', 'data-do': 'layout' })),
-      h('div', { class: 'shapes' }, ...own));
-  }
-
-  // A click chooses the brush. Into an empty scene, from the keyboard and by a double click it places the shape.
-  private press(e: MouseEvent, name: string): void {
-    const empty = this.store.state.parts.length === 0;
-    if (this.tools.tool !== 'pull' && (empty || e.detail === 0 || e.detail === 2) && !this.store.busy) {
-      const stage = $('stage').getBoundingClientRect();
-      void this.tools.place(name, stage.left + stage.width / 2, stage.top + stage.height / 2);
-    } else {
-      this.tools.brush = name;
-      this.update();
-    }
-  }
-
-  // Families take any number they can build: a shape by its name.
-  private async addShape(name: string): Promise<void> {
-    if (!name || this.shapes.some(s => s.name === name)) return;
-    try {
-      const g = await api.geometry('/api/try', { revision: this.store.state.revision, alone: true, operation: { op: 'place', shape: name } });
-      this.shapes = [{ name, summary: name, elements: g.header.elements, open: false }, ...this.shapes];
-      this.tools.brush = name;
-      this.library();
-      $('library').scrollTop = 0;
-      this.update();
-      await this.thumbnail(name);
-    } catch (problem) {
-      this.store.explain(problem);
-    }
-  }
-
-  // Carry a shape from the library into the scene.
-  private carry(e: PointerEvent, name: string, layout?: { elements: unknown[]; joins: unknown[] }): void {
-    if (e.button !== 0) return;
-    const card = e.currentTarget as HTMLElement, from = { x: e.clientX, y: e.clientY };
-    const image = card.querySelector('img');
-    let carried: HTMLElement | null = null;
-    card.setPointerCapture(e.pointerId);
-    const move = (m: PointerEvent) => {
-      if (!carried && Math.hypot(m.clientX - from.x, m.clientY - from.y) > 6) {
-        carried = h('img', { class: 'carried', src: image?.src ?? '', alt: '' });
-        document.body.append(carried);
-      }
-      if (carried) {
-        carried.style.left = m.clientX + 'px';
-        carried.style.top = m.clientY + 'px';
-      }
-    };
-    const end = (m: PointerEvent) => {
-      card.removeEventListener('pointermove', move);
-      card.removeEventListener('pointerup', end);
-      card.removeEventListener('pointercancel', end);
-      const on = carried !== null && m.type === 'pointerup' && document.elementFromPoint(m.clientX, m.clientY)?.closest('#stage');
-      if (carried) this.dropped = performance.now(); // the click that follows is none
-      carried?.remove();
-      if (on) void this.tools.place(name, m.clientX, m.clientY, layout && { elements: layout.elements, joins: layout.joins });
-    };
-    card.addEventListener('pointermove', move);
-    card.addEventListener('pointerup', end);
-    card.addEventListener('pointercancel', end);
   }
 
   private side(): void {
@@ -250,7 +155,7 @@ export class Panels {
           part.problems[0] !== undefined ? reason(part.problems[0]) : `${part.elements} ${t('elements')}, ${part.flipped} ${t('flipped')}, ${number(part.max_stretch * 100, 2)} %`)),
       state.parts.length > 1 && button(t('Delete'), 'remove', () => { this.tools.part = k; void this.tools.deletePart(); }, { class: 'small' })));
     fill($('side'), h('h2', {}, t('Parts'), this.fileButtons()), h('ul', { class: 'rows' }, ...rows), this.picked(),
-      h('h2', {}, t('Element')), pieceRow(this.store, () => this.view.fit()), h('h2', {}, t('History')), historyPanel(this.store, this.shapes.map(s => s.name)));
+      h('h2', {}, t('Element')), pieceRow(this.store, () => this.view.fit()), h('h2', {}, t('History')), historyPanel(this.store, this.library.names));
   }
 
   private fileButtons(): HTMLElement {
