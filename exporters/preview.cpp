@@ -10,6 +10,7 @@
 #include "exporters/bending_modes_settle.h"
 #include "exporters/bent_element_report.h"
 #include "exporters/comparison.h"
+#include "exporters/preview_ghost.h"
 #include "exporters/preview_html.h"
 #include "exporters/preview_model.h"
 
@@ -280,8 +281,13 @@ Expected<PreviewFiles> preview_files(const Replay& replay, const AssemblyPlan& p
     if (!steps) {
         return tl::make_unexpected(steps.error());
     }
-    PreviewModel model{std::move(*bent),  {},           element_labels(replay.surface, plan), replay.surface.components,
-                       element.thickness, options.title};
+    PreviewModel model{std::move(*bent),
+                       {},
+                       element_labels(replay.surface, plan),
+                       replay.surface.components,
+                       element.thickness,
+                       options.title,
+                       options.target ? ghost_of(*options.target) : TriangleMesh{}};
     const Choice choice = choose_modes(model, *steps, element, hooks, options);
     model.bent.report = measure_bending(model.bent, replay.surface, element, hooks);
     model.bent.report.max_corner_error_mm = std::max(model.bent.report.max_corner_error_mm, choice.max_corner_error_mm);

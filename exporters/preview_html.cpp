@@ -4,6 +4,7 @@
 #include <map>
 
 #include "exporters/markup.h"
+#include "exporters/preview_ghost.h"
 #include "exporters/preview_pack.h"
 #include "exporters/sha256.h"
 
@@ -62,11 +63,34 @@ std::string filled(const std::string& page, const std::map<std::string, std::str
     return result.append(page, std::min(at, page.size()), std::string::npos);
 }
 
-Expected<std::string> assembled(const std::string& title, const std::string& data)
+//! The viewer's script, with what shows a target or without.
+Expected<std::string> viewer_script(bool with_ghost)
+{
+    const std::string mark = "// @GHOST@\n";
+    Expected<std::string> script = viewer_part("viewer.js");
+    const Expected<std::string> ghost = viewer_part("viewer_ghost.js");
+    if (!script || !ghost) {
+        return script ? ghost : script;
+    }
+    const std::size_t at = script->find(mark);
+    expects(at != std::string::npos, "viewer.js says where the target is shown");
+    script->replace(at, mark.size(), with_ghost ? *ghost : "");
+    return lean(*script);
+}
+
+//! The target in an element of its own; nothing when there is none.
+std::string ghost_data(const TriangleMesh& ghost)
+{
+    return ghost.triangles.empty()
+               ? ""
+               : "<script id=\"ghost\" type=\"application/octet-stream\">" + packed_ghost(ghost) + "</script>\n";
+}
+
+Expected<std::string> assembled(const std::string& title, const std::string& data, const std::string& ghost)
 {
     const Expected<std::string> page = viewer_part("viewer.html");
     const Expected<std::string> style = viewer_part("viewer.css");
-    const Expected<std::string> script = viewer_part("viewer.js");
+    const Expected<std::string> script = viewer_script(!ghost.empty());
     const Expected<std::string> start = viewer_part("viewer_start.js");
     for (const auto* part : {&page, &style, &script, &start}) {
         if (!*part) {
@@ -74,7 +98,7 @@ Expected<std::string> assembled(const std::string& title, const std::string& dat
         }
     }
     const std::string css = lean(*style);
-    const std::string js = lean(*script);
+    const std::string& js = *script;
     const std::string first = lean(*start);
     // The viewer is unpacked by the page itself; the policy lets exactly these two scripts run.
     const std::string policy = "default-src 'none'; script-src " + source_hash(first) + " " + source_hash(js) +
@@ -84,6 +108,7 @@ Expected<std::string> assembled(const std::string& title, const std::string& dat
                           {"STYLE", css},
                           {"START", first},
                           {"VIEWER", packed_text(js)},
+                          {"GHOST", ghost},
                           {"DATA", data}});
 }
 
@@ -93,7 +118,8 @@ Expected<PreviewPage> preview_page(const PreviewModel& model, const PreviewSteps
                                    const PreviewOptions& options)
 {
     PackedPreview packed = packed_preview(model, steps, element, options);
-    const Expected<std::string> html = assembled(model.title.empty() ? "rhombloom preview" : model.title, packed.data);
+    const std::string title = model.title.empty() ? "rhombloom preview" : model.title;
+    const Expected<std::string> html = assembled(title, packed.data, ghost_data(model.ghost));
     if (!html) {
         return tl::make_unexpected(html.error());
     }

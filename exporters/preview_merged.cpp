@@ -4,6 +4,7 @@
 #include "core/form/parallel.h"
 #include "exporters/bent_element_solid.h"
 #include "exporters/draco_mesh.h"
+#include "exporters/preview_ghost.h"
 #include "exporters/preview_model.h"
 
 namespace rhombloom {
@@ -146,6 +147,9 @@ Expected<CompressedPreview> merged_glb(const PreviewModel& model, const PreviewO
     glb.json["meshes"].push_back({{"primitives", std::move(primitives)}});
     glb.json["nodes"].push_back({{"name", "elements"}, {"mesh", 0}, {"extras", label_table(model)}});
     glb.json["scenes"][0]["nodes"] = {0};
+    if (auto ok = add_compressed_ghost(glb, model.ghost); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
     result.bytes = glb_bytes(glb);
     return result;
 }

@@ -24,6 +24,7 @@ struct PreviewModel
     std::vector<std::string> components;
     double thickness = 0;
     std::string title;
+    TriangleMesh ghost; //!< the target of an import in few triangles; empty without one
 };
 
 //! \brief Names, steps and sides of all elements.

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "exporters/draco_mesh.h"
+#include "exporters/preview_ghost.h"
 #include "exporters/preview_targets.h"
 
 // One element with morph targets. Everything below a group node is in units of a few micrometres, z up, in the
@@ -160,8 +161,9 @@ void add_meshes(Glb& glb, const PreviewModel& model, const Json& primitive, std:
     }
 }
 
-CompressedPreview write(const PreviewModel& model, const PreviewOptions& options, const DracoStream& base,
-                        const std::vector<MorphTarget>& targets, const std::vector<Placed>& all, const Grid& grid)
+Expected<CompressedPreview> write(const PreviewModel& model, const PreviewOptions& options, const DracoStream& base,
+                                  const std::vector<MorphTarget>& targets, const std::vector<Placed>& all,
+                                  const Grid& grid)
 {
     Glb glb = make_glb(model.title);
     glb.json["extensionsUsed"] = {"KHR_draco_mesh_compression", "KHR_mesh_quantization"};
@@ -179,7 +181,11 @@ CompressedPreview write(const PreviewModel& model, const PreviewOptions& options
         {"bufferView", view}, {"attributes", {{"POSITION", base.point_id}, {"NORMAL", base.normal_id}}}};
     add_meshes(glb, model, primitive, targets.size());
     add_nodes(glb, model, all, grid.unit);
-    return {glb_bytes(glb), decoded_error(model, targets, all, mesh, grid.unit), static_cast<int>(targets.size()) - 1};
+    if (auto ok = add_compressed_ghost(glb, model.ghost); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    return CompressedPreview{glb_bytes(glb), decoded_error(model, targets, all, mesh, grid.unit),
+                             static_cast<int>(targets.size()) - 1};
 }
 
 Expected<CompressedPreview> in_steps(const PreviewModel& model, const PreviewOptions& options, double step_mm,

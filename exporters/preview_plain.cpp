@@ -1,4 +1,5 @@
 #include "exporters/bent_element_solid.h"
+#include "exporters/preview_ghost.h"
 #include "exporters/preview_model.h"
 
 namespace rhombloom {
@@ -31,26 +32,6 @@ int add_element_mesh(Glb& glb, const SolidElement& solid, const Vec3& origin, in
     return static_cast<int>(glb.json["meshes"].size()) - 1;
 }
 
-//! The target of an import, to be seen through.
-void add_ghost(Glb& glb, const TriangleMesh& target)
-{
-    std::vector<Eigen::Vector3f> points;
-    for (const Vec3& p : target.points) {
-        points.push_back(to_gltf(p));
-    }
-    glb.json["materials"].push_back(
-        {{"name", "target"},
-         {"pbrMetallicRoughness",
-          {{"baseColorFactor", {0.45, 0.5, 0.58, 0.35}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
-         {"alphaMode", "BLEND"}});
-    Json primitive{{"attributes", {{"POSITION", add_points(glb, points)}}},
-                   {"indices", add_indices(glb, target.triangles)},
-                   {"material", glb.json["materials"].size() - 1}};
-    glb.json["scenes"][0]["nodes"].push_back(glb.json["nodes"].size());
-    glb.json["nodes"].push_back({{"name", "target"}, {"mesh", glb.json["meshes"].size()}});
-    glb.json["meshes"].push_back({{"primitives", Json::array({std::move(primitive)})}});
-}
-
 } // namespace
 
 std::string plain_glb(const PreviewModel& model, const PreviewOptions& options)
@@ -75,7 +56,7 @@ std::string plain_glb(const PreviewModel& model, const PreviewOptions& options)
                                      {"extras", label_extras(model, model.labels[f])}});
     }
     if (options.target) {
-        add_ghost(glb, *options.target);
+        add_plain_ghost(glb, *options.target);
     }
     return glb_bytes(glb);
 }

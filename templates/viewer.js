@@ -191,6 +191,7 @@ const matrix = a => {
 const shiftOf = e => middles[e].map((v, r) => (v - centre[r]) * state.explode);
 
 let wanted = false;
+let afterwards = () => {};
 const redraw = () => { if (!wanted) { wanted = true; requestAnimationFrame(draw); } };
 function draw() {
   wanted = false;
@@ -221,6 +222,7 @@ function draw() {
     gl.uniform1f(uniform.line, l.stripes > 1 ? 1 : .55);
     gl.drawElements(gl.LINES, 2 * rim, gl.UNSIGNED_INT, 4 * (3 * nt * N + 2 * rim * e));
   }
+  afterwards(a);
 }
 
 // Steps: what stands before a step, and the piece of the step on its way.
@@ -391,6 +393,7 @@ addEventListener('hashchange', () => { play(false); show(linked(), true); });
 addEventListener('resize', redraw);
 canvas.addEventListener('webglcontextlost', () => { $('fallback').hidden = false; });
 $('summary').textContent = `${head.final} elements, ${facing.subarray(0, head.final).reduce((a, b) => a + (b ? 1 : 0), 0)} flipped, ${(head.size_mm / 10).toFixed(0)} cm`;
+// @GHOST@
 lamp(state.lamp);
 show(linked(), true);
 window.rhombloom = { state, pick, choose, show, camera, active, visible };

@@ -121,7 +121,7 @@ TEST(TargetFile, MissingChangedOrElsewhereIsRefusedWithTheFilesName)
     EXPECT_FALSE(load_targets(design_with(file), folder.path.string()));
 }
 
-TEST(Preview, ATargetIsAGhostInThePlainModelAndAPictureOfItsOwn)
+TEST(Preview, ATargetIsAGhostInThe3dFilesAndAPictureOfItsOwn)
 {
     Replay replay;
     replay.surface = ball();
@@ -138,7 +138,12 @@ TEST(Preview, ATargetIsAGhostInThePlainModelAndAPictureOfItsOwn)
     EXPECT_TRUE(with->files.contains("target.png"));
     EXPECT_EQ(without->files.at("preview-plain.glb").find("\"name\":\"target\""), std::string::npos);
     EXPECT_NE(with->files.at("preview-plain.glb").find("{\"name\":\"target\",\"mesh\":30}"), std::string::npos);
-    EXPECT_EQ(without->files.at("preview.glb"), with->files.at("preview.glb"));
+    for (const auto& [file, word] : std::map<std::string, std::string>{{"preview.glb", "{\"name\":\"target\""},
+                                                                       {"preview.html", "id=\"ghost\""}}) {
+        EXPECT_EQ(without->files.at(file).find(word), std::string::npos) << file;
+        EXPECT_NE(with->files.at(file).find(word), std::string::npos) << file;
+        EXPECT_LT(with->files.at(file).size(), without->files.at(file).size() + 30'000) << file;
+    }
 }
 
 } // namespace

@@ -1,0 +1,245 @@
+#include "exporters/preview_ghost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <set>
+
+#include "core/design/mesh_import/mesh_decimate.h"
+#include "exporters/draco_mesh.h"
+#include "exporters/preview_pack.h"
+
+namespace rhombloom {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+//! Does every edge have a triangle on either side, once?
+bool is_closed(const TriangleMesh& mesh)
+{
+    std::set<std::pair<int, int>> edges;
+    for (const Triangle& t : mesh.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            if (t[k] == t[(k + 1) % 3] || !edges.emplace(t[k], t[(k + 1) % 3]).second) {
+                return false;
+            }
+        }
+    }
+    return std::all_of(edges.begin(), edges.end(), [&](const auto& e) { return edges.count({e.second, e.first}) > 0; });
+}
+
+//! Triangles so that each shares a side with one before it where possible, each turned so that new points come last.
+std::vector<Triangle> in_walking_order(const std::vector<Triangle>& triangles)
+{
+    std::map<std::pair<int, int>, int> left_of;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            left_of[{triangles[i][k], triangles[i][(k + 1) % 3]}] = static_cast<int>(i);
+        }
+    }
+    std::vector<Triangle> result;
+    std::vector<bool> seen(triangles.size(), false);
+    for (std::size_t first = 0; first < triangles.size(); ++first) {
+        std::deque<Triangle> open;
+        if (!seen[first]) {
+            seen[first] = true;
+            open.push_back(triangles[first]);
+        }
+        for (; !open.empty(); open.pop_front()) {
+            const Triangle t = open.front();
+            result.push_back(t);
+            for (int k = 0; k < 3; ++k) {
+                const auto next = left_of.find({t[(k + 1) % 3], t[k]});
+                if (next != left_of.end() && !seen[next->second]) {
+                    seen[next->second] = true;
+                    Triangle turned = triangles[next->second];
+                    while (turned[0] != t[(k + 1) % 3]) {
+                        std::rotate(turned.begin(), turned.begin() + 1, turned.end());
+                    }
+                    open.push_back(turned);
+                }
+            }
+        }
+    }
+    return result;
+}
+
+//! The same mesh, its points in the order in which the triangles come to them.
+TriangleMesh walked(const TriangleMesh& mesh)
+{
+    TriangleMesh result;
+    std::vector<int> number(mesh.points.size(), -1);
+    for (Triangle t : in_walking_order(mesh.triangles)) {
+        for (int& v : t) {
+            if (number[v] < 0) {
+                number[v] = static_cast<int>(result.points.size());
+                result.points.push_back(mesh.points[v]);
+            }
+            v = number[v];
+        }
+        result.triangles.push_back(t);
+    }
+    return result;
+}
+
+template <class T>
+void append_raw(std::string& bytes, T value)
+{
+    std::array<char, sizeof(T)> raw{};
+    std::memcpy(raw.data(), &value, sizeof(T));
+    bytes.append(raw.data(), raw.size());
+}
+
+//! Two bytes each: all the low ones, then all the high ones.
+void append_shorts(std::string& bytes, const std::vector<int>& values)
+{
+    for (const int shift : {0, 8}) {
+        for (const int v : values) {
+            bytes.push_back(static_cast<char>(static_cast<unsigned>(v) >> shift));
+        }
+    }
+}
+
+std::vector<Eigen::Vector3f> point_normals(const DracoMesh& mesh)
+{
+    std::vector<Eigen::Vector3f> result(mesh.points.size(), Eigen::Vector3f::Zero());
+    for (const auto& t : mesh.triangles) {
+        const Eigen::Vector3f& p = mesh.points[t[0]];
+        const Eigen::Vector3f across = (mesh.points[t[1]] - p).cross(mesh.points[t[2]] - p);
+        for (const int v : t) {
+            result[v] += across;
+        }
+    }
+    for (Eigen::Vector3f& normal : result) {
+        normal = normal.norm() > 0 ? Eigen::Vector3f(normal.normalized()) : Eigen::Vector3f(Eigen::Vector3f::UnitZ());
+    }
+    return result;
+}
+
+int add_ghost_material(Glb& glb)
+{
+    glb.json["materials"].push_back(
+        {{"name", "target"},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {0.45, 0.5, 0.58, 0.35}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
+         {"alphaMode", "BLEND"}});
+    return static_cast<int>(glb.json["materials"].size()) - 1;
+}
+
+void add_ghost_node(Glb& glb, Json primitive)
+{
+    glb.json["scenes"][0]["nodes"].push_back(glb.json["nodes"].size());
+    glb.json["nodes"].push_back({{"name", "target"}, {"mesh", glb.json["meshes"].size()}});
+    glb.json["meshes"].push_back({{"primitives", Json::array({std::move(primitive)})}});
+}
+
+} // namespace
+
+TriangleMesh ghost_of(const TriangleMesh& target, std::size_t most_points)
+{
+    TriangleMesh result = target;
+    if (result.points.size() > most_points && !is_closed(result)) {
+        return {};
+    }
+    while (result.points.size() > most_points) {
+        const double share = static_cast<double>(result.points.size()) / static_cast<double>(most_points);
+        double sum = 0;
+        for (const Triangle& t : result.triangles) {
+            sum += (result.points[t[0]] - result.points[t[1]]).norm();
+        }
+        const double edge = sum / static_cast<double>(result.triangles.size());
+        TriangleMesh fewer = decimate(result, std::max(1.1, std::sqrt(share)) * edge);
+        if (fewer.points.size() >= result.points.size()) {
+            return {};
+        }
+        result = std::move(fewer);
+    }
+    return walked(result);
+}
+
+std::string packed_ghost(const TriangleMesh& ghost)
+{
+    constexpr double steps = 4000;
+    const Eigen::AlignedBox3d box = bounds(ghost);
+    const double step = std::max(box.sizes().maxCoeff() / steps, 1e-6);
+    std::string bytes;
+    append_raw(bytes, static_cast<std::uint32_t>(ghost.points.size()));
+    append_raw(bytes, static_cast<std::uint32_t>(ghost.triangles.size()));
+    for (const double value : {box.min().x(), box.min().y(), box.min().z(), step}) {
+        append_raw(bytes, static_cast<float>(value));
+    }
+    for (int r = 0; r < 3; ++r) {
+        std::vector<int> differences;
+        int before = 0;
+        for (const Vec3& p : ghost.points) {
+            const int now = static_cast<int>(std::lround((p[r] - box.min()[r]) / step));
+            differences.push_back(now - before);
+            before = now;
+        }
+        append_shorts(bytes, differences);
+    }
+    std::vector<int> behind;
+    int next = 0;
+    for (const Triangle& t : ghost.triangles) {
+        for (const int v : t) {
+            behind.push_back(next - v);
+            next = std::max(next, v + 1);
+        }
+    }
+    append_shorts(bytes, behind);
+    return packed_text(bytes);
+}
+
+void add_plain_ghost(Glb& glb, const TriangleMesh& ghost)
+{
+    std::vector<Eigen::Vector3f> points;
+    for (const Vec3& p : ghost.points) {
+        points.push_back(to_gltf(p));
+    }
+    const int material = add_ghost_material(glb);
+    add_ghost_node(glb, {{"attributes", {{"POSITION", add_points(glb, points)}}},
+                         {"indices", add_indices(glb, ghost.triangles)},
+                         {"material", material}});
+}
+
+Expected<void> add_compressed_ghost(Glb& glb, const TriangleMesh& ghost)
+{
+    constexpr double tolerance = 1.0 / 4000; // of its size
+    constexpr int normal_bits = 8;
+    if (ghost.triangles.empty()) {
+        return {};
+    }
+    DracoMesh mesh;
+    mesh.triangles = ghost.triangles;
+    Eigen::AlignedBox3f box;
+    for (const Vec3& p : ghost.points) {
+        mesh.points.push_back(to_gltf(p));
+        box.extend(mesh.points.back());
+    }
+    const PointGrid grid = point_grid(mesh.points, tolerance * static_cast<double>(box.sizes().maxCoeff()));
+    mesh.normals = point_normals(mesh);
+    mesh.normals = expected_normals(mesh, grid, normal_bits, 180);
+    const Expected<DracoStream> stream = compress(mesh, grid, normal_bits);
+    if (!stream) {
+        return tl::make_unexpected(stream.error());
+    }
+    const DracoMesh& seen = stream->decoded;
+    const int view = add_view(glb, stream->bytes, ViewTarget::None);
+    const int points = add_accessor(glb, -1, Component::Float, "VEC3", seen.points.size());
+    set_bounds(glb, points, seen.points);
+    const int normals = add_accessor(glb, -1, Component::Float, "VEC3", seen.normals.size());
+    const Component number = seen.points.size() < 65535 ? Component::UInt16 : Component::UInt32;
+    const int indices = add_accessor(glb, -1, number, "SCALAR", 3 * seen.triangles.size());
+    Json primitive{{"attributes", {{"POSITION", points}, {"NORMAL", normals}}},
+                   {"indices", indices},
+                   {"material", add_ghost_material(glb)}};
+    primitive["extensions"]["KHR_draco_mesh_compression"] = {
+        {"bufferView", view}, {"attributes", {{"POSITION", stream->point_id}, {"NORMAL", stream->normal_id}}}};
+    add_ghost_node(glb, std::move(primitive));
+    return {};
+}
+
+} // namespace rhombloom
