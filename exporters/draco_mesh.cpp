@@ -76,28 +76,10 @@ std::vector<Value> read_attribute(const draco::Mesh& mesh, int id)
     return values;
 }
 
-Expected<DracoMesh> decode(const DracoStream& stream)
+//! The extent that the lattice's numbers of so many bits cover.
+float range_of(const PointGrid& grid)
 {
-    draco::DecoderBuffer buffer;
-    buffer.Init(stream.bytes.data(), stream.bytes.size());
-    draco::Decoder decoder;
-    auto result = decoder.DecodeMeshFromBuffer(&buffer);
-    if (!result.ok()) {
-        return machine_failure(std::string("the preview's mesh could not be read back: ") +
-                               result.status().error_msg());
-    }
-    const draco::Mesh& mesh = *result.value();
-    DracoMesh decoded;
-    decoded.points = read_attribute<Eigen::Vector3f>(mesh, stream.point_id);
-    decoded.normals = read_attribute<Eigen::Vector3f>(mesh, stream.normal_id);
-    decoded.elements = read_attribute<std::uint16_t>(mesh, stream.element_id);
-    decoded.order = read_attribute<std::uint16_t>(mesh, stream.order_id);
-    for (std::uint32_t f = 0; f < mesh.num_faces(); ++f) {
-        const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(f));
-        decoded.triangles.push_back(
-            {static_cast<int>(face[0].value()), static_cast<int>(face[1].value()), static_cast<int>(face[2].value())});
-    }
-    return decoded;
+    return static_cast<float>(grid.step * (std::exp2(grid.bits) - 1));
 }
 
 using LatticePoint = Eigen::Matrix<std::int64_t, 3, 1>;
@@ -126,12 +108,16 @@ PointGrid point_grid(const std::vector<Eigen::Vector3f>& points, double toleranc
     for (const Eigen::Vector3f& p : points) {
         box.extend(p);
     }
-    // The cell's half diagonal is the largest error; leave a little for the float arithmetic of decoders.
+    // The cell's half diagonal is the largest error; leave a little for the float arithmetic of decoders. Draco passes
+    // origin and extent on with six decimals: numbers that have no more arrive as they are.
+    constexpr double micro = 1e-6;
     PointGrid grid;
-    grid.origin = box.min();
+    grid.origin = ((box.min().cast<double>() / micro).array().floor() * micro).cast<float>();
     grid.step = 2 * 0.98 * tolerance / std::sqrt(3.0);
-    const double cells = static_cast<double>(box.sizes().maxCoeff()) / grid.step + 1;
+    const double cells = static_cast<double>((box.max() - grid.origin).maxCoeff()) / grid.step + 1;
     grid.bits = std::clamp(static_cast<int>(std::ceil(std::log2(cells + 1))), 2, 30);
+    const double most = std::exp2(grid.bits) - 1;
+    grid.step = std::ceil(grid.step * most / micro) * micro / most;
     return grid;
 }
 
@@ -167,9 +153,16 @@ Expected<DracoStream> compress(const DracoMesh& mesh, const PointGrid& grid, int
     draco::Mesh source;
     const Ids ids = fill(source, mesh);
     draco::ExpertEncoder encoder(source);
+    // The slowest speed for its order of the points; its prediction from many parallelograms at once would save 2 %
+    // of the points' bytes and cost half the time, for element numbers nothing and a quarter of the time.
     encoder.SetSpeedOptions(0, 0);
-    const auto range = static_cast<float>(grid.step * (std::exp2(grid.bits) - 1));
-    encoder.SetAttributeExplicitQuantization(ids.point, grid.bits, 3, grid.origin.data(), range);
+    encoder.SetAttributePredictionScheme(ids.point, draco::MESH_PREDICTION_PARALLELOGRAM);
+    for (const int id : {ids.element, ids.order}) {
+        if (id >= 0) {
+            encoder.SetAttributePredictionScheme(id, draco::PREDICTION_DIFFERENCE);
+        }
+    }
+    encoder.SetAttributeExplicitQuantization(ids.point, grid.bits, 3, grid.origin.data(), range_of(grid));
     if (ids.normal >= 0) {
         encoder.SetAttributeQuantization(ids.normal, normal_bits);
     }
@@ -184,12 +177,45 @@ Expected<DracoStream> compress(const DracoMesh& mesh, const PointGrid& grid, int
     stream.normal_id = unique_id(source, ids.normal);
     stream.element_id = unique_id(source, ids.element);
     stream.order_id = unique_id(source, ids.order);
-    Expected<DracoMesh> decoded = decode(stream);
-    if (!decoded) {
-        return tl::make_unexpected(decoded.error());
-    }
-    stream.decoded = std::move(*decoded);
     return stream;
+}
+
+Expected<DracoMesh> decompress(const DracoStream& stream)
+{
+    draco::DecoderBuffer buffer;
+    buffer.Init(stream.bytes.data(), stream.bytes.size());
+    draco::Decoder decoder;
+    auto result = decoder.DecodeMeshFromBuffer(&buffer);
+    if (!result.ok()) {
+        return machine_failure(std::string("the preview's mesh could not be read back: ") +
+                               result.status().error_msg());
+    }
+    const draco::Mesh& mesh = *result.value();
+    DracoMesh decoded;
+    decoded.points = read_attribute<Eigen::Vector3f>(mesh, stream.point_id);
+    decoded.normals = read_attribute<Eigen::Vector3f>(mesh, stream.normal_id);
+    decoded.elements = read_attribute<std::uint16_t>(mesh, stream.element_id);
+    decoded.order = read_attribute<std::uint16_t>(mesh, stream.order_id);
+    for (std::uint32_t f = 0; f < mesh.num_faces(); ++f) {
+        const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(f));
+        decoded.triangles.push_back(
+            {static_cast<int>(face[0].value()), static_cast<int>(face[1].value()), static_cast<int>(face[2].value())});
+    }
+    return decoded;
+}
+
+std::vector<Eigen::Vector3f> on_grid(const std::vector<Eigen::Vector3f>& points, const PointGrid& grid)
+{
+    const auto cells = static_cast<float>(std::exp2(grid.bits) - 1);
+    const float to_cells = cells / range_of(grid);
+    const float step = range_of(grid) / cells;
+    std::vector<Eigen::Vector3f> places;
+    places.reserve(points.size());
+    for (const Eigen::Vector3f& p : points) {
+        const Eigen::Array3f cell = ((p - grid.origin).array() * to_cells + 0.5F).floor();
+        places.emplace_back((cell * step).matrix() + grid.origin);
+    }
+    return places;
 }
 
 } // namespace rhombloom

@@ -28,7 +28,6 @@ struct DracoStream
     int normal_id = -1;
     int element_id = -1;
     int order_id = -1;
-    DracoMesh decoded; //!< read back from the bytes: what a viewer will see, in its order
 };
 
 //! \brief The lattice on which a stream keeps its points: `origin + step * (i, j, k)`, every number of \p bits bits.
@@ -48,7 +47,13 @@ PointGrid point_grid(const std::vector<Eigen::Vector3f>& points, double toleranc
 std::vector<Eigen::Vector3f> expected_normals(const DracoMesh& mesh, const PointGrid& grid, int normal_bits,
                                               double within_deg);
 
-//! \brief Compress with points on \p grid and \p normal_bits per normal, and decode again.
+//! \brief Compress with points on \p grid and \p normal_bits per normal.
 Expected<DracoStream> compress(const DracoMesh& mesh, const PointGrid& grid, int normal_bits);
+
+//! \brief Read back from the bytes: what a viewer will see, in its order.
+Expected<DracoMesh> decompress(const DracoStream& stream);
+
+//! \brief Where a decoder will put \p points.
+std::vector<Eigen::Vector3f> on_grid(const std::vector<Eigen::Vector3f>& points, const PointGrid& grid);
 
 } // namespace rhombloom

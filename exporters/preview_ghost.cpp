@@ -226,7 +226,11 @@ Expected<void> add_compressed_ghost(Glb& glb, const TriangleMesh& ghost)
     if (!stream) {
         return tl::make_unexpected(stream.error());
     }
-    const DracoMesh& seen = stream->decoded;
+    const Expected<DracoMesh> decoded = decompress(*stream);
+    if (!decoded) {
+        return tl::make_unexpected(decoded.error());
+    }
+    const DracoMesh& seen = *decoded;
     const int view = add_view(glb, stream->bytes, ViewTarget::None);
     const int points = add_accessor(glb, -1, Component::Float, "VEC3", seen.points.size());
     set_bounds(glb, points, seen.points);

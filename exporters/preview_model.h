@@ -1,6 +1,7 @@
 #pragma once
 
 #include "exporters/bending_modes.h"
+#include "exporters/draco_mesh.h"
 #include "exporters/gltf.h"
 #include "exporters/preview.h"
 
@@ -43,7 +44,29 @@ struct CompressedPreview
     int modes = 0;
 };
 
-//! \brief One Draco mesh per side, `_ELEMENT_ID` = face number on every point; the labels stand in the node's extras.
+//! \brief Some elements of one side as one Draco mesh.
+struct MergedPart
+{
+    Outward outward = Outward::Front;
+    DracoMesh mesh; //!< what was compressed
+    PointGrid grid;
+    DracoStream stream;
+};
+
+struct MergedPreview
+{
+    std::string bytes;
+    std::vector<MergedPart> parts;
+};
+
+//! \brief Draco meshes of up to 96 elements of one side, `_ELEMENT_ID` = face number on every point; the labels stand
+//! in the node's extras.
+Expected<MergedPreview> encoded_merged(const PreviewModel& model, const PreviewOptions& options);
+
+//! \brief The largest distance of a point, decoded, from its place, mm. Refuses streams that do not read back.
+Expected<double> decoded_error_mm(const std::vector<MergedPart>& parts);
+
+//! \brief The file encoded and its error measured.
 Expected<CompressedPreview> merged_glb(const PreviewModel& model, const PreviewOptions& options);
 
 //! \brief One Draco element with bending modes as morph targets (and a last target that lays it flat); a node with

@@ -93,7 +93,14 @@ double decoded_error(const PreviewModel& model, const std::vector<MorphTarget>& 
     return worst;
 }
 
-Expected<DracoStream> compressed_base(const PreviewModel& model, const SolidElement& mean, const Grid& grid)
+//! The mean element as a stream, and what a viewer reads in it.
+struct CompressedBase
+{
+    DracoStream stream;
+    DracoMesh decoded;
+};
+
+Expected<CompressedBase> compressed_base(const PreviewModel& model, const SolidElement& mean, const Grid& grid)
 {
     DracoMesh mesh;
     for (std::size_t i = 0; i < mean.points.size(); ++i) {
@@ -102,7 +109,12 @@ Expected<DracoStream> compressed_base(const PreviewModel& model, const SolidElem
         mesh.order.push_back(static_cast<std::uint16_t>(i));
     }
     mesh.triangles = solid_triangles(model.bent.sheet, Outward::Front);
-    return compress(mesh, point_grid(mesh.points, 0.5 * grid.step / grid.unit), normal_bits);
+    return compress(mesh, point_grid(mesh.points, 0.5 * grid.step / grid.unit), normal_bits)
+        .and_then([](DracoStream stream) {
+            return decompress(stream).map([&](DracoMesh decoded) {
+                return CompressedBase{std::move(stream), std::move(decoded)};
+            });
+        });
 }
 
 Json group(const std::string& name, Outward outward, const std::string& component, double unit)
@@ -161,7 +173,7 @@ void add_meshes(Glb& glb, const PreviewModel& model, const Json& primitive, std:
     }
 }
 
-Expected<CompressedPreview> write(const PreviewModel& model, const PreviewOptions& options, const DracoStream& base,
+Expected<CompressedPreview> write(const PreviewModel& model, const PreviewOptions& options, const CompressedBase& base,
                                   const std::vector<MorphTarget>& targets, const std::vector<Placed>& all,
                                   const Grid& grid)
 {
@@ -170,7 +182,7 @@ Expected<CompressedPreview> write(const PreviewModel& model, const PreviewOption
     glb.json["extensionsRequired"] = {"KHR_draco_mesh_compression", "KHR_mesh_quantization"};
     add_materials(glb, options.lamp == LampLook::On);
     const DracoMesh& mesh = base.decoded;
-    const int view = add_view(glb, base.bytes, ViewTarget::None);
+    const int view = add_view(glb, base.stream.bytes, ViewTarget::None);
     const int points = add_accessor(glb, -1, Component::Float, "VEC3", mesh.points.size());
     set_bounds(glb, points, mesh.points);
     const int normals = add_accessor(glb, -1, Component::Float, "VEC3", mesh.normals.size());
@@ -178,7 +190,7 @@ Expected<CompressedPreview> write(const PreviewModel& model, const PreviewOption
     Json primitive{{"attributes", {{"POSITION", points}, {"NORMAL", normals}}}, {"indices", indices}};
     primitive["targets"] = add_targets(glb, targets, mesh.order);
     primitive["extensions"]["KHR_draco_mesh_compression"] = {
-        {"bufferView", view}, {"attributes", {{"POSITION", base.point_id}, {"NORMAL", base.normal_id}}}};
+        {"bufferView", view}, {"attributes", {{"POSITION", base.stream.point_id}, {"NORMAL", base.stream.normal_id}}}};
     add_meshes(glb, model, primitive, targets.size());
     add_nodes(glb, model, all, grid.unit);
     if (auto ok = add_compressed_ghost(glb, model.ghost); !ok) {
@@ -193,7 +205,7 @@ Expected<CompressedPreview> in_steps(const PreviewModel& model, const PreviewOpt
 {
     const BendingModes& modes = model.modes;
     const MorphedElement element = morphed_element(model, step_mm, short_steps);
-    const Expected<DracoStream> base = compressed_base(model, element.mean, element.grid);
+    const Expected<CompressedBase> base = compressed_base(model, element.mean, element.grid);
     if (!base) {
         return tl::make_unexpected(base.error());
     }

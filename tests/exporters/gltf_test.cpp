@@ -28,11 +28,13 @@ TEST(Draco, KeepsTheTolerance)
 {
     const DracoMesh mesh = grid(30);
     for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
-        const DracoStream stream = *compress(mesh, point_grid(mesh.points, tolerance), 8);
-        ASSERT_FALSE(stream.decoded.points.empty());
-        for (std::size_t i = 0; i < stream.decoded.points.size(); ++i) {
-            const auto& truth = mesh.points[stream.decoded.order[i]];
-            EXPECT_LE((stream.decoded.points[i] - truth).norm(), tolerance);
+        const PointGrid lattice = point_grid(mesh.points, tolerance);
+        const DracoMesh decoded = *decompress(*compress(mesh, lattice, 8));
+        const std::vector<Eigen::Vector3f> foreseen = on_grid(mesh.points, lattice);
+        ASSERT_FALSE(decoded.points.empty());
+        for (std::size_t i = 0; i < decoded.points.size(); ++i) {
+            EXPECT_LE((decoded.points[i] - mesh.points[decoded.order[i]]).norm(), tolerance);
+            EXPECT_LE((decoded.points[i] - foreseen[decoded.order[i]]).norm(), 1e-3 * lattice.step);
         }
     }
 }
