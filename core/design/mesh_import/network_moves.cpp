@@ -72,6 +72,26 @@ void take_first(std::vector<Ranked>& sorted, std::size_t count, double rank, std
     }
 }
 
+//! The element's nodes and those around them.
+std::vector<Move> pops_near(const EditMesh& mesh, const Corners& place)
+{
+    const auto h = mesh.find_halfedge(VertexHandle(place.first), VertexHandle(place.second));
+    const auto [c, d] = opposite_vertices(mesh, mesh.edge_handle(h));
+    std::set<int> nodes;
+    const int corners = static_cast<int>(mesh.n_vertices());
+    for (const VertexHandle v : {VertexHandle(place.first), VertexHandle(place.second), c, d}) {
+        nodes.insert(v.idx());
+        for (const auto f : mesh.vf_range(v)) {
+            nodes.insert(corners + f.idx());
+        }
+    }
+    std::vector<Move> result;
+    for (const int v : nodes) {
+        result.push_back({Move::Kind::Pop, {v, v}});
+    }
+    return result;
+}
+
 std::set<int> edges_near(const EditMesh& mesh, const Corners& place)
 {
     const auto h = mesh.find_halfedge(VertexHandle(place.first), VertexHandle(place.second));
@@ -120,6 +140,10 @@ std::vector<Move> moves_near(const Plan& plan, const Corners& place, const MoveL
     for (const Ranked& r : ranked) {
         result.push_back(r.move);
     }
+    if (limits.may_pop) {
+        const std::vector<Move> pops = pops_near(mesh, place);
+        result.insert(result.end(), pops.begin(), pops.end());
+    }
     return result;
 }
 
@@ -129,6 +153,36 @@ Triangle sorted(Triangle t)
 {
     std::sort(t.begin(), t.end());
     return t;
+}
+
+//! \p point on the other side of the plane of a closed ring of points.
+Vec3 mirrored(const Vec3& point, const std::vector<Vec3>& ring)
+{
+    Vec3 middle = Vec3::Zero();
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+        middle += ring[k] / static_cast<double>(ring.size());
+        normal += (ring[k] - ring[0]).cross(ring[(k + 1) % ring.size()] - ring[0]);
+    }
+    return point - 2 * normal * normal.dot(point - middle) / std::max(normal.squaredNorm(), 1e-300);
+}
+
+void pop(int node, Plan& plan)
+{
+    const int corners = static_cast<int>(plan.triangles.points.size());
+    std::vector<Vec3> ring;
+    if (node >= corners) {
+        for (const int v : plan.triangles.triangles[node - corners]) {
+            ring.push_back(plan.triangles.points[v]);
+        }
+        plan.middles[node - corners] = mirrored(plan.middles[node - corners], ring);
+        return;
+    }
+    const EditMesh mesh = edit_mesh(plan.triangles);
+    for (const auto f : mesh.vf_range(VertexHandle(node))) {
+        ring.push_back(plan.middles[f.idx()]);
+    }
+    plan.triangles.points[node] = mirrored(plan.triangles.points[node], ring);
 }
 
 void apply(const Move& move, EditMesh& mesh, std::set<Corners>& flipped)
@@ -169,11 +223,20 @@ std::vector<int> numbers(const EditMesh& mesh)
 
 } // namespace
 
-Plan carry_out(const std::vector<Move>& moves, const Plan& plan)
+Plan carry_out(const std::vector<Move>& moves, const Plan& before)
 {
+    Plan plan = before;
+    for (const Move& move : moves) {
+        if (move.kind == Move::Kind::Pop) {
+            pop(move.corners.first, plan);
+        }
+    }
     EditMesh mesh = edit_mesh(plan.triangles);
     std::set<Corners> flipped = plan.flipped;
     for (const Move& move : moves) {
+        if (move.kind == Move::Kind::Pop) {
+            continue;
+        }
         apply(move, mesh, flipped);
     }
     std::map<Triangle, Vec3> known;
@@ -182,8 +245,13 @@ Plan carry_out(const std::vector<Move>& moves, const Plan& plan)
     }
     const std::vector<int> number = numbers(mesh);
     Plan result;
+    result.scale = plan.scale;
     for (const auto v : mesh.vertices()) { // leaves out what collapsed
         result.triangles.points.push_back(mesh.point(v));
+        if (!plan.origin.empty()) {
+            const auto k = static_cast<std::size_t>(v.idx());
+            result.origin.push_back(k < plan.origin.size() ? plan.origin[k] : -1);
+        }
     }
     for (const auto f : mesh.faces()) {
         Triangle t{};

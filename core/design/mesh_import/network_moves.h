@@ -12,10 +12,11 @@ struct Move
         Flip,     //!< the element connects the two other corners of its triangles
         Split,    //!< a new corner in the middle of the element: three elements more
         Collapse, //!< the element's corners become one in their middle: three elements fewer
-        Turn      //!< the element is turned over
+        Turn,     //!< the element is turned over
+        Pop       //!< a node goes through to the other side of its neighbours; the network stays as it is
     };
     Kind kind = Kind::Flip;
-    Corners corners; //!< of the element
+    Corners corners; //!< of the element; of a pop: the vertex of the join, twice
 };
 
 struct MoveLimits
@@ -23,6 +24,7 @@ struct MoveLimits
     int max_degree = 7;
     bool may_split = true;
     bool may_collapse = true;
+    bool may_pop = false;
 };
 
 //! \brief Changes around the element between two corners, the most promising first.

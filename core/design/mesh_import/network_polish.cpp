@@ -12,11 +12,12 @@ namespace {
 constexpr double least_gain = 5e-4;   // of the score, la
 constexpr double most_changed = 0.04; // of the number of elements, by splits and collapses
 constexpr double reach = 3;           // edges of triangles over which a move is judged
-constexpr std::size_t most_places = 8;
-constexpr int patience = 4;       // rounds in vain after which it ends
-constexpr int more_patience = 10; // when it cannot be built yet
-constexpr int most_kicks = 8;     // changes for the worse that may lead out of a dead end, while it cannot be built
-constexpr int alternatives = 4;   // moves that are tried at a place, side by side
+constexpr int least_places = 8;
+constexpr int elements_per_place = 75; // the more elements, the more places at once: a round costs an embedding
+constexpr int patience = 4;            // rounds in vain after which it ends
+constexpr int more_patience = 10;      // when it cannot be built yet
+constexpr int most_kicks = 8;   // changes for the worse that may lead out of a dead end, while it cannot be built
+constexpr int alternatives = 4; // moves that are tried at a place, side by side
 
 //! Where something is to be done, and what.
 struct Place
@@ -106,6 +107,8 @@ std::vector<Place> Polishing::places()
     const auto count = static_cast<double>(bad.size());
     const MoveLimits limits{max_move_degree(trials_.element), count + 3 <= (1 + most_changed) * asked,
                             count - 3 >= (1 - most_changed) * asked};
+    const auto most_places =
+        static_cast<std::size_t>(std::max(least_places, trials_.options.elements / elements_per_place));
     std::vector<Place> result;
     for (const int k : order) {
         const Vec3& where = best_.ratings[k].middle;

@@ -11,6 +11,7 @@
 #include "core/design/mesh_import/join_network.h"
 #include "core/design/mesh_import/mesh_decimate.h"
 #include "core/design/mesh_import/network_crossings.h"
+#include "core/design/mesh_import/network_ease.h"
 #include "core/design/mesh_import/network_trial.h"
 #include "core/design/mesh_import/remesh.h"
 #include "core/design/pose.h"
@@ -102,7 +103,7 @@ namespace {
 
 Plan plan_of(const TriangleMesh& triangles, const MeshTree& target)
 {
-    return {triangles, triangle_middles(triangles, target), {}};
+    return {triangles, triangle_middles(triangles, target), {}, 1};
 }
 
 bool is_better(const Trial& a, const Trial& b)
@@ -183,14 +184,6 @@ std::vector<Trial> finalists(std::vector<Trial> found, int attempt)
     return result;
 }
 
-bool can_be_built(const Trial& trial)
-{
-    constexpr double most_stretch = 0.0098; // a little below the hundredth that a sheet gives: a trial is not exact
-    return std::all_of(trial.ratings.begin(), trial.ratings.end(),
-                       [](const ElementRating& rating) { return rating.stretch < most_stretch; }) &&
-           !has_crossings(trial.found.surface);
-}
-
 //! The best of one attempt, eased.
 std::optional<Trial> attempt(const Trials& trials, int number)
 {
@@ -199,7 +192,7 @@ std::optional<Trial> attempt(const Trials& trials, int number)
         return std::nullopt;
     }
     const long work = 6000L * trials.options.elements; // iterations times elements
-    const long more_work = 40000L * trials.options.elements;
+    const long local_work = 20000L * trials.options.elements;
     for (Trial& trial : found) {
         polish(trial, trials, stretch_price, work);
     }
@@ -209,7 +202,7 @@ std::optional<Trial> attempt(const Trials& trials, int number)
     };
     std::stable_sort(found.begin(), found.end(), better);
     for (std::size_t k = 0; k < found.size() && !can_be_built(found.front()); ++k) {
-        polish(found[k], trials, 4 * stretch_price, more_work);
+        ease(found[k], trials, 4 * stretch_price, local_work);
         std::stable_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(k) + 1, better);
     }
     return std::move(found.front());
@@ -226,7 +219,7 @@ Expected<FoundNetwork> search_network(const TriangleMesh& target, const Element&
         return refuse("stopped");
     }
     Trials trials{tree, element, options};
-    const int attempts = std::clamp(1200 / options.elements, 3, 6); // few elements settle quickly
+    const int attempts = std::clamp(2400 / options.elements, 2, 8); // few elements settle quickly
     std::optional<Trial> best;
     for (int k = 0; k < attempts && !(best && can_be_built(*best)); ++k) {
         auto next = attempt(trials, k);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/design/mesh_import/join_network.h"
+#include "core/design/mesh_import/network_crossings.h"
 #include "core/design/pose.h"
 #include "core/model/validity.h"
 
@@ -13,38 +14,6 @@ namespace {
 
 constexpr double stretch_limit = 0.0095; // a little below the hundredth that a sheet gives
 constexpr int trial_samples = 2000;
-
-//! Joins put the acute corners first and third; turned over they are the others.
-double largest_stretch(const Surface& surface, const Element& element, Face f)
-{
-    const Quad q = quad(surface, f);
-    const auto length = [&](int a, int b) {
-        return (surface.point(Vertex(q[a])) - surface.point(Vertex(q[b]))).norm();
-    };
-    const bool front = surface.data(f).facing == Facing::Front;
-    double largest = std::max(length(0, 2) / (front ? long_diagonal(element) : short_diagonal(element)),
-                              length(1, 3) / (front ? short_diagonal(element) : long_diagonal(element)));
-    for (int k = 0; k < 4; ++k) {
-        largest = std::max(largest, length(k, (k + 1) % 4) / element.la);
-    }
-    return largest - 1;
-}
-
-bool permissible(const Surface& surface, const Element& element)
-{
-    return std::all_of(surface.vertices_begin(), surface.vertices_end(),
-                       [&](Vertex v) { return surface.is_boundary(v) || defect_problem(surface, element, v).empty(); });
-}
-
-Expected<Surface> network_of(const Plan& plan)
-{
-    SurfaceLists lists = join_network(plan.triangles, plan.middles);
-    for (std::size_t f = 0; f < lists.quads.size(); ++f) {
-        const Quad& q = lists.quads[f];
-        lists.facing[f] = plan.flipped.count(std::minmax(q[0], q[2])) > 0 ? Facing::Back : Facing::Front;
-    }
-    return make_surface(lists);
-}
 
 void scale_about_origin(Surface& surface, double factor)
 {
@@ -80,6 +49,37 @@ EmbedReport embed_quickly(Surface& surface, const Trials& trials)
 
 } // namespace
 
+double largest_stretch(const Surface& surface, const Element& element, Face f)
+{
+    const Quad q = quad(surface, f);
+    const auto length = [&](int a, int b) {
+        return (surface.point(Vertex(q[a])) - surface.point(Vertex(q[b]))).norm();
+    };
+    const bool front = surface.data(f).facing == Facing::Front;
+    double largest = std::max(length(0, 2) / (front ? long_diagonal(element) : short_diagonal(element)),
+                              length(1, 3) / (front ? short_diagonal(element) : long_diagonal(element)));
+    for (int k = 0; k < 4; ++k) {
+        largest = std::max(largest, length(k, (k + 1) % 4) / element.la);
+    }
+    return largest - 1;
+}
+
+bool has_permissible_defects(const Surface& surface, const Element& element)
+{
+    return std::all_of(surface.vertices_begin(), surface.vertices_end(),
+                       [&](Vertex v) { return surface.is_boundary(v) || defect_problem(surface, element, v).empty(); });
+}
+
+Expected<Surface> surface_of(const Plan& plan)
+{
+    SurfaceLists lists = join_network(plan.triangles, plan.middles);
+    for (std::size_t f = 0; f < lists.quads.size(); ++f) {
+        const Quad& q = lists.quads[f];
+        lists.facing[f] = plan.flipped.count(std::minmax(q[0], q[2])) > 0 ? Facing::Back : Facing::Front;
+    }
+    return make_surface(lists);
+}
+
 int max_degree(const Element& element)
 {
     const double room = two_pi - permissible_defect(element).min;
@@ -93,13 +93,21 @@ int max_move_degree(const Element& element)
 
 bool is_permissible(const Plan& plan, const Trials& trials)
 {
-    const auto surface = network_of(plan);
-    return surface && permissible(*surface, trials.element);
+    const auto surface = surface_of(plan);
+    return surface && has_permissible_defects(*surface, trials.element);
 }
 
 double excess_stretch(double stretch)
 {
     return std::max(0.0, stretch - stretch_limit);
+}
+
+bool can_be_built(const Trial& trial)
+{
+    constexpr double most_stretch = 0.0098; // a little below the hundredth that a sheet gives: a trial is not exact
+    return std::all_of(trial.ratings.begin(), trial.ratings.end(),
+                       [](const ElementRating& rating) { return rating.stretch < most_stretch; }) &&
+           !has_crossings(trial.found.surface);
 }
 
 double score(const Trial& trial, double price)
@@ -109,21 +117,23 @@ double score(const Trial& trial, double price)
 
 std::optional<Trial> settle(const Plan& plan, const Trials& trials)
 {
-    auto surface = network_of(plan);
-    if (!surface || !permissible(*surface, trials.element)) {
+    auto surface = surface_of(plan);
+    if (!surface || !has_permissible_defects(*surface, trials.element)) {
         return std::nullopt;
     }
     Trial trial;
+    scale_about_origin(*surface, 1 / plan.scale); // so what was in equilibrium still is
     trial.found.embedding = embed_quickly(*surface, trials);
     if (!trial.found.embedding.converged) {
         return std::nullopt;
     }
-    const Eigen::Affine3d pose = fit(*surface, trials.target, trials.options.rescale);
     std::vector<double> stretch;
     for (const Face f : surface->faces()) {
         stretch.push_back(largest_stretch(*surface, trials.element, f));
         trial.excess += excess_stretch(stretch.back());
     }
+    scale_about_origin(*surface, plan.scale);
+    const Eigen::Affine3d pose = fit(*surface, trials.target, trials.options.rescale);
     for (const Vertex v : surface->vertices()) {
         surface->set_point(v, pose * surface->point(v));
     }
@@ -136,7 +146,8 @@ std::optional<Trial> settle(const Plan& plan, const Trials& trials)
         (corner ? trial.plan.triangles.points : trial.plan.middles).push_back(surface->point(v));
     }
     // All lengths grow so that the elements have their own size again, and the target with them.
-    const double scale = std::cbrt(pose.linear().determinant());
+    const double scale = plan.scale * std::cbrt(pose.linear().determinant());
+    trial.plan.scale = scale;
     scale_about_origin(*surface, 1 / scale);
     for (std::size_t f = 0; f < stretch.size(); ++f) {
         trial.ratings[f].stretch = stretch[f];

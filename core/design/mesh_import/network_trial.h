@@ -25,6 +25,8 @@ struct Plan
     TriangleMesh triangles;    //!< corners on the target, or where they settled
     std::vector<Vec3> middles; //!< of the triangles
     std::set<Corners> flipped; //!< elements that are turned over
+    double scale = 1;          //!< of the points, relative to elements of their own size
+    std::vector<int> origin;   //!< of a part of another plan: its corners' numbers there, -1 for new ones; or empty
 };
 
 //! \brief How good one element is, and where it is relative to the target as it was searched.
@@ -49,8 +51,21 @@ struct Trial
 //! \brief Distance in la, and \p price times the excess of stretch; small is good.
 double score(const Trial& trial, double price);
 
+//! \brief The largest stretch of an element's sides and diagonals.
+//! \pre \p surface is a join: acute corners are first and third.
+double largest_stretch(const Surface& surface, const Element& element, Face f);
+
+//! \brief The join of \p plan, its points as they are.
+Expected<Surface> surface_of(const Plan& plan);
+
+//! \brief Are the defects of all inner vertices permissible?
+bool has_permissible_defects(const Surface& surface, const Element& element);
+
 //! \brief Stretch of one element beyond what a sheet gives.
 double excess_stretch(double stretch);
+
+//! \brief Is every element stretched by a little less than a sheet gives, and none crosses another?
+bool can_be_built(const Trial& trial);
 
 //! \brief Most triangles at a corner that the element's permissible defects allow.
 int max_degree(const Element& element);
