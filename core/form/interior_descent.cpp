@@ -18,7 +18,8 @@ constexpr double to_boundary = 0.99;      // share of the way to a slack or forc
 constexpr double largest_imbalance = 100; // of a hinge's slack times force against the mean
 constexpr double smallest_step = 0.02;    // share of the direction; below, the Hessian is nearly indefinite
 constexpr double arrived = 1e-5;          // gradient; below, it is known which hinges are concave
-constexpr double lag = 1.5;               // power of the residual that slack times force may not fall behind
+constexpr double near = 1e-3;             // gradient; below, an indefinite Hessian is not for this method
+constexpr double lag = 2;                 // power of the residual that slack times force may not fall behind
 
 // The share of the direction that keeps every value positive.
 double share_to_zero(const ArrayXd& values, const ArrayXd& steps)
@@ -184,6 +185,9 @@ bool damped_step(NewtonSystem& system, ConcaveHinges& hinges, Iterate& iterate, 
 {
     hinges.look(iterate.x);
     for (const double damping : {0.0, 0.1, 0.3, 1.0}) {
+        if (damping > 0 && iterate.gradient_norm() < near) {
+            return false;
+        }
         if (interior_step(system, hinges, iterate, terms, damping)) {
             return true;
         }

@@ -1,6 +1,7 @@
 // bench_starts [RUNS] [SHAPE ...]: from which starts the embedding reaches the best energy that any of them found.
-// Every library shape (or those named) from the generator's positions, from RUNS (10) starts with 0.1 and 0.5 la of
-// noise per coordinate and from RUNS clouds of the shape's size. Prints how many converge (no gradient component over
+// Every library shape and every example design (or those named, a design as model-NAME) from the generator's positions
+// (a design: as it is replayed), from RUNS (10) starts with 0.1 and 0.5 la of noise per coordinate and from RUNS clouds
+// of the shape's size. Prints how many converge (no gradient component over
 // 1e-8) and how many come within 1e-6 of the best energy, per shape and in all. Shapes that rest on a guard (a sheet
 // folded sharply) are in no equilibrium of the energy and do not count.
 
@@ -8,11 +9,14 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <map>
 
+#include "core/design/history.h"
 #include "core/form/embedding.h"
 #include "core/model/base_shapes.h"
+#include "tests/bench/examples.h"
 #include "tests/core/form/triangulations.h"
 
 namespace rhombloom {
@@ -25,17 +29,16 @@ struct Outcome
     double energy = 0;
 };
 
-Outcome outcome(Surface surface)
+Outcome outcome(Surface surface, const Element& element)
 {
-    const Element element;
     embed(surface, element);
     const EmbedReport report = measure(surface, element);
     return {report.gradient_norm <= 1e-8, report.guard_energy > 0, report.energy + report.guard_energy};
 }
 
-Surface noisy(Surface surface, double sigma, unsigned seed)
+Surface noisy(Surface surface, double sigma, unsigned seed) // mm
 {
-    shapes::add_noise(surface, sigma * Element{}.la, seed);
+    shapes::add_noise(surface, sigma, seed);
     return surface;
 }
 
@@ -57,17 +60,31 @@ Surface cloud(Surface surface, unsigned seed)
 
 using Outcomes = std::map<std::string, std::vector<Outcome>>; // by kind of start
 
+constexpr const char* model = "model-";
+
 Outcomes outcomes(const std::string& name, unsigned runs)
 {
-    const Surface surface = base_shape(name, {}).value().surface;
+    const bool is_model = name.starts_with(model);
+    const Design design = is_model ? bench::example(name.substr(std::strlen(model))) : Design{};
+    const Surface surface = is_model ? replay(design).value().surface : base_shape(name, {}).value().surface;
+    const double la = design.element.la;
     Outcomes out;
-    out["generator"] = {outcome(surface)};
+    out["generator"] = {outcome(surface, design.element)};
     for (unsigned seed = 1; seed <= runs; ++seed) {
-        out["noise 0.1"].push_back(outcome(noisy(surface, 0.1, seed)));
-        out["noise 0.5"].push_back(outcome(noisy(surface, 0.5, seed)));
-        out["cloud"].push_back(outcome(cloud(surface, seed)));
+        out["noise 0.1"].push_back(outcome(noisy(surface, 0.1 * la, seed), design.element));
+        out["noise 0.5"].push_back(outcome(noisy(surface, 0.5 * la, seed), design.element));
+        out["cloud"].push_back(outcome(cloud(surface, seed), design.element));
     }
     return out;
+}
+
+std::vector<std::string> all_names()
+{
+    std::vector<std::string> names = base_shape_names();
+    for (const std::string& example : bench::example_names()) {
+        names.push_back(model + example);
+    }
+    return names;
 }
 
 double lowest(const Outcomes& all)
@@ -101,7 +118,7 @@ Sum count(const std::vector<Outcome>& list, double best)
 
 void print(const char* name, const std::map<std::string, Sum>& sums)
 {
-    std::printf("%-14s", name);
+    std::printf("%-16s", name);
     for (const char* start : {"generator", "noise 0.1", "noise 0.5", "cloud"}) {
         const Sum& sum = sums.at(start);
         std::printf("  %5d %5d of %-5d", sum.converged, sum.best, sum.runs);
@@ -118,8 +135,8 @@ int main(int argc, char** argv)
     using namespace rhombloom;
     const unsigned runs = argc > 1 ? unsigned(std::max(1, std::atoi(argv[1]))) : 10;
     std::vector<std::string> names(argv + std::min(argc, 2), argv + argc);
-    names = names.empty() ? base_shape_names() : names;
-    std::printf("converged, best energy; from  %-21s%-21s%-21s%s\n", "generator", "noise 0.1 la", "noise 0.5 la",
+    names = names.empty() ? all_names() : names;
+    std::printf("converged, best energy; from    %-21s%-21s%-21s%s\n", "generator", "noise 0.1 la", "noise 0.5 la",
                 "cloud");
     std::map<std::string, Sum> total;
     for (const std::string& name : names) {

@@ -1,14 +1,9 @@
 #include "tests/bench/embedding_cases.h"
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
-#include "core/design/design_file.h"
 #include "core/design/history.h"
 #include "core/form/minimise.h"
 #include "core/model/base_shapes.h"
+#include "tests/bench/examples.h"
 #include "tests/core/form/triangulations.h"
 
 namespace rhombloom::bench {
@@ -70,18 +65,9 @@ void add_balls(std::vector<Case>& out)
 
 void add_models(std::vector<Case>& out)
 {
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(RHOMBLOOM_SOURCE_DIR "/examples")) {
-        if (entry.path().extension() == ".json") {
-            files.push_back(entry.path());
-        }
-    }
-    std::sort(files.begin(), files.end());
-    for (const std::filesystem::path& file : files) {
-        out.push_back({"model-" + file.stem().string(), [file](unsigned seed) {
-                           std::stringstream text;
-                           text << std::ifstream(file).rdbuf();
-                           const Design design = parse_design(text.str()).value();
+    for (const std::string& name : example_names()) {
+        out.push_back({"model-" + name, [name](unsigned seed) {
+                           const Design design = example(name);
                            return noisy(replay(design).value().surface, design.element, seed);
                        }});
     }

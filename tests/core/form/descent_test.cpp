@@ -137,6 +137,21 @@ TEST(InteriorDescent, FindsItsWayWhereEdgesAreSlack)
     EXPECT_NEAR(iterate.energy, 229.2594380267, 1e-6);
 }
 
+// There one factorisation of a softened Hessian serves many steps.
+TEST(Newton, ConvergesOnALargeSurfaceFromWhereTheHessianIsIndefinite)
+{
+    const Surface surface = shapes::ball_surface(4);
+    const EmbeddingTerms terms = terms_of(surface);
+    Iterate iterate = iterate_at(terms, positions(surface));
+    ASSERT_EQ(quasi_newton(terms, iterate, {}).reason, StopReason::Stalled);
+    NewtonSystem system(terms, 1);
+    ASSERT_FALSE(system.factor(iterate, {}));
+    const MinimiseResult result = newton_with(system, terms, iterate, {});
+    EXPECT_EQ(result.reason, StopReason::Converged);
+    EXPECT_LT(result.iterations, 250);
+    EXPECT_NEAR(iterate.energy, 229.2594380267, 1e-6);
+}
+
 TEST(InteriorDescent, NeverLeavesAWorseShape)
 {
     Surface surface = shapes::ball_surface(3);
