@@ -103,7 +103,7 @@ namespace {
 
 Plan plan_of(const TriangleMesh& triangles, const MeshTree& target)
 {
-    return {triangles, triangle_middles(triangles, target), {}, 1};
+    return {triangles, triangle_middles(triangles, target), {}, 1, {}};
 }
 
 bool is_better(const Trial& a, const Trial& b)
