@@ -12,7 +12,7 @@ for (const [brush, from, by] of [['ball-30', [0, 0, 400], [60, -40, 330]], ['pol
   const at = await card(page, brush);
   await page.mouse.click(at.x, at.y);
   const start = await grasp(page, from);
-  const path = [0.3, 0.6, 1, 0.7, 1.1].map(s => start.at.map((x, k) => x + s * by[k]));
+  const path = [0.3, 1, 0.7].map(s => start.at.map((x, k) => x + s * by[k]));
   await drag(page, start, await where(page, path[0]), 10);
   for (const point of path.slice(1)) {
     const to = await where(page, point);

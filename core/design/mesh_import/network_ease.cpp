@@ -6,6 +6,7 @@
 
 #include "core/design/mesh_import/network_crossings.h"
 #include "core/design/mesh_import/network_patch.h"
+#include "core/design/mesh_import/network_replace.h"
 #include "core/form/parallel.h"
 
 namespace rhombloom {

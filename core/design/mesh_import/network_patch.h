@@ -25,7 +25,4 @@ Patch patch_around(const Trial& whole, const Corners& place, const Trials& trial
 std::optional<Patch> changed(const Patch& patch, const Move& move, const Trial& whole, const Trials& trials,
                              double price);
 
-//! \brief \p whole with some of its parts replaced. \pre The parts have no triangle in common.
-Plan replaced(const Trial& whole, const std::vector<Patch>& parts);
-
 } // namespace rhombloom

@@ -26,7 +26,7 @@ struct Plan
     std::vector<Vec3> middles; //!< of the triangles
     std::set<Corners> flipped; //!< elements that are turned over
     double scale = 1;          //!< of the points, relative to elements of their own size
-    std::vector<int> origin;   //!< of a part of another plan: its corners' numbers there, -1 for new ones; or empty
+    std::vector<int> origin{}; //!< of a part of another plan: its corners' numbers there, -1 for new ones; or empty
 };
 
 //! \brief How good one element is, and where it is relative to the target as it was searched.

@@ -2,7 +2,7 @@
 
 #include "core/design/mesh_import/join_network.h"
 #include "core/design/mesh_import/network_ease.h"
-#include "core/design/mesh_import/network_patch.h"
+#include "core/design/mesh_import/network_replace.h"
 #include "core/model/triangulation.h"
 
 namespace rhombloom {
