@@ -17,7 +17,7 @@ struct PreviewOptions
     int thumbnail_size = 768;                   //!< pixels
     Background background = Background::Studio; //!< of the thumbnail
     std::optional<HookParameters> hooks;        //!< the default ones for the element when not given
-    std::optional<TriangleMesh> target;         //!< of an import, mm: a ghost in the 3D files, and target.png
+    std::optional<TriangleMesh> target;         //!< of an import, mm: a scene in preview-plain.glb, a key in the page
 };
 
 //! How preview.glb holds the elements.

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "core/design/mesh_import/mesh_decimate.h"
-#include "exporters/draco_mesh.h"
 #include "exporters/preview_pack.h"
 
 namespace rhombloom {
@@ -103,22 +102,6 @@ void append_shorts(std::string& bytes, const std::vector<int>& values)
     }
 }
 
-std::vector<Eigen::Vector3f> point_normals(const DracoMesh& mesh)
-{
-    std::vector<Eigen::Vector3f> result(mesh.points.size(), Eigen::Vector3f::Zero());
-    for (const auto& t : mesh.triangles) {
-        const Eigen::Vector3f& p = mesh.points[t[0]];
-        const Eigen::Vector3f across = (mesh.points[t[1]] - p).cross(mesh.points[t[2]] - p);
-        for (const int v : t) {
-            result[v] += across;
-        }
-    }
-    for (Eigen::Vector3f& normal : result) {
-        normal = normal.norm() > 0 ? Eigen::Vector3f(normal.normalized()) : Eigen::Vector3f(Eigen::Vector3f::UnitZ());
-    }
-    return result;
-}
-
 int add_ghost_material(Glb& glb)
 {
     glb.json["materials"].push_back(
@@ -129,9 +112,10 @@ int add_ghost_material(Glb& glb)
     return static_cast<int>(glb.json["materials"].size()) - 1;
 }
 
-void add_ghost_node(Glb& glb, Json primitive)
+//! In a scene of its own: who opens the file sees the lamp alone.
+void add_ghost_scene(Glb& glb, Json primitive)
 {
-    glb.json["scenes"][0]["nodes"].push_back(glb.json["nodes"].size());
+    glb.json["scenes"].push_back({{"name", "target"}, {"nodes", {glb.json["nodes"].size()}}});
     glb.json["nodes"].push_back({{"name", "target"}, {"mesh", glb.json["meshes"].size()}});
     glb.json["meshes"].push_back({{"primitives", Json::array({std::move(primitive)})}});
 }
@@ -200,50 +184,9 @@ void add_plain_ghost(Glb& glb, const TriangleMesh& ghost)
         points.push_back(to_gltf(p));
     }
     const int material = add_ghost_material(glb);
-    add_ghost_node(glb, {{"attributes", {{"POSITION", add_points(glb, points)}}},
-                         {"indices", add_indices(glb, ghost.triangles)},
-                         {"material", material}});
-}
-
-Expected<void> add_compressed_ghost(Glb& glb, const TriangleMesh& ghost)
-{
-    constexpr double tolerance = 1.0 / 4000; // of its size
-    constexpr int normal_bits = 8;
-    if (ghost.triangles.empty()) {
-        return {};
-    }
-    DracoMesh mesh;
-    mesh.triangles = ghost.triangles;
-    Eigen::AlignedBox3f box;
-    for (const Vec3& p : ghost.points) {
-        mesh.points.push_back(to_gltf(p));
-        box.extend(mesh.points.back());
-    }
-    const PointGrid grid = point_grid(mesh.points, tolerance * static_cast<double>(box.sizes().maxCoeff()));
-    mesh.normals = point_normals(mesh);
-    mesh.normals = expected_normals(mesh, grid, normal_bits, 180);
-    const Expected<DracoStream> stream = compress(mesh, grid, normal_bits);
-    if (!stream) {
-        return tl::make_unexpected(stream.error());
-    }
-    const Expected<DracoMesh> decoded = decompress(*stream);
-    if (!decoded) {
-        return tl::make_unexpected(decoded.error());
-    }
-    const DracoMesh& seen = *decoded;
-    const int view = add_view(glb, stream->bytes, ViewTarget::None);
-    const int points = add_accessor(glb, -1, Component::Float, "VEC3", seen.points.size());
-    set_bounds(glb, points, seen.points);
-    const int normals = add_accessor(glb, -1, Component::Float, "VEC3", seen.normals.size());
-    const Component number = seen.points.size() < 65535 ? Component::UInt16 : Component::UInt32;
-    const int indices = add_accessor(glb, -1, number, "SCALAR", 3 * seen.triangles.size());
-    Json primitive{{"attributes", {{"POSITION", points}, {"NORMAL", normals}}},
-                   {"indices", indices},
-                   {"material", add_ghost_material(glb)}};
-    primitive["extensions"]["KHR_draco_mesh_compression"] = {
-        {"bufferView", view}, {"attributes", {{"POSITION", stream->point_id}, {"NORMAL", stream->normal_id}}}};
-    add_ghost_node(glb, std::move(primitive));
-    return {};
+    add_ghost_scene(glb, {{"attributes", {{"POSITION", add_points(glb, points)}}},
+                          {"indices", add_indices(glb, ghost.triangles)},
+                          {"material", material}});
 }
 
 } // namespace rhombloom

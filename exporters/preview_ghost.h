@@ -16,10 +16,7 @@ TriangleMesh ghost_of(const TriangleMesh& target, std::size_t most_points = 2500
 //! bytes, lowest bytes first, and the corners of the triangles as differences from the highest number so far plus one.
 std::string packed_ghost(const TriangleMesh& ghost);
 
-//! \brief Add a node "target" to be seen through, its points and triangles as they are.
+//! \brief Add a second scene "target" with the ghost to be seen through, its points and triangles as they are.
 void add_plain_ghost(Glb& glb, const TriangleMesh& ghost);
-
-//! \brief The same, compressed by Draco; refuses what that refuses. An empty ghost adds nothing.
-Expected<void> add_compressed_ghost(Glb& glb, const TriangleMesh& ghost);
 
 } // namespace rhombloom

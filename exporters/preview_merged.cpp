@@ -6,7 +6,6 @@
 #include "core/form/parallel.h"
 #include "exporters/bent_element_solid.h"
 #include "exporters/draco_mesh.h"
-#include "exporters/preview_ghost.h"
 #include "exporters/preview_model.h"
 
 namespace rhombloom {
@@ -202,9 +201,6 @@ Expected<MergedPreview> encoded_merged(const PreviewModel& model, const PreviewO
     glb.json["meshes"].push_back({{"primitives", std::move(primitives)}});
     glb.json["nodes"].push_back({{"name", "elements"}, {"mesh", 0}, {"extras", label_table(model)}});
     glb.json["scenes"][0]["nodes"] = {0};
-    if (auto ok = add_compressed_ghost(glb, model.ghost); !ok) {
-        return tl::make_unexpected(ok.error());
-    }
     return MergedPreview{glb_bytes(glb), std::move(*parts)};
 }
 

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 
 #include "exporters/draco_mesh.h"
-#include "exporters/preview_ghost.h"
 #include "exporters/preview_targets.h"
 
 // One element with morph targets. Everything below a group node is in units of a few micrometres, z up, in the
@@ -193,9 +192,6 @@ Expected<CompressedPreview> write(const PreviewModel& model, const PreviewOption
         {"bufferView", view}, {"attributes", {{"POSITION", base.stream.point_id}, {"NORMAL", base.stream.normal_id}}}};
     add_meshes(glb, model, primitive, targets.size());
     add_nodes(glb, model, all, grid.unit);
-    if (auto ok = add_compressed_ghost(glb, model.ghost); !ok) {
-        return tl::make_unexpected(ok.error());
-    }
     return CompressedPreview{glb_bytes(glb), decoded_error(model, targets, all, mesh, grid.unit),
                              static_cast<int>(targets.size()) - 1};
 }

@@ -42,7 +42,9 @@ function world_points(node, primitive) {
 async function elements_of(name) {
   const root = (await io.readBinary(new Uint8Array(read(name)))).getRoot();
   const found = new Map();
-  for (const node of root.listNodes().filter(n => n.getMesh())) {
+  const nodes = [];
+  root.getDefaultScene().traverse(node => nodes.push(node)); // not the target of an import, which has a scene of its own
+  for (const node of nodes.filter(n => n.getMesh())) {
     for (const primitive of node.getMesh().listPrimitives()) {
       const points = world_points(node, primitive), ids = primitive.getAttribute('_ELEMENT_ID');
       if (!ids) {
