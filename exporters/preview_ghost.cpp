@@ -92,16 +92,6 @@ void append_raw(std::string& bytes, T value)
     bytes.append(raw.data(), raw.size());
 }
 
-//! Two bytes each: all the low ones, then all the high ones.
-void append_shorts(std::string& bytes, const std::vector<int>& values)
-{
-    for (const int shift : {0, 8}) {
-        for (const int v : values) {
-            bytes.push_back(static_cast<char>(static_cast<unsigned>(v) >> shift));
-        }
-    }
-}
-
 int add_ghost_material(Glb& glb)
 {
     glb.json["materials"].push_back(
@@ -163,7 +153,7 @@ std::string packed_ghost(const TriangleMesh& ghost)
             differences.push_back(now - before);
             before = now;
         }
-        append_shorts(bytes, differences);
+        append_sorted_bytes(bytes, differences, 2);
     }
     std::vector<int> behind;
     int next = 0;
@@ -173,7 +163,7 @@ std::string packed_ghost(const TriangleMesh& ghost)
             next = std::max(next, v + 1);
         }
     }
-    append_shorts(bytes, behind);
+    append_sorted_bytes(bytes, behind, 2);
     return packed_text(bytes);
 }
 

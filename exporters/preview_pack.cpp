@@ -13,17 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-//! Whole numbers, bytes sorted by significance: what deflate compresses best.
-template <class Numbers>
-void append(std::string& bytes, const Numbers& values, int size)
-{
-    for (int b = 0; b < size; ++b) {
-        for (const auto value : values) {
-            bytes.push_back(static_cast<char>(static_cast<std::uint32_t>(static_cast<std::int32_t>(value)) >> (8 * b)));
-        }
-    }
-}
-
 std::vector<std::int32_t> rounded(const Eigen::VectorXd& values, double scale)
 {
     std::vector<std::int32_t> result;
@@ -188,17 +177,17 @@ std::string payload(const PreviewModel& model, const PreviewSteps& steps, const 
 {
     std::string json = head.dump(-1, ' ', false, Json::error_handler_t::replace);
     std::string bytes;
-    append(bytes, std::array<std::size_t, 1>{json.size()}, 4);
+    append_sorted_bytes(bytes, std::array<std::size_t, 1>{json.size()}, 4);
     bytes += json;
-    append(bytes, triangle_differences(model.bent.sheet), 2);
-    append(bytes, rounded(flat_points(model.bent.sheet), 1 / packed.unit), 2);
-    append(bytes, packed.mean, 2);
-    append(bytes, rounded(mean_normals(modes, elements), 127), 1);
+    append_sorted_bytes(bytes, triangle_differences(model.bent.sheet), 2);
+    append_sorted_bytes(bytes, rounded(flat_points(model.bent.sheet), 1 / packed.unit), 2);
+    append_sorted_bytes(bytes, packed.mean, 2);
+    append_sorted_bytes(bytes, rounded(mean_normals(modes, elements), 127), 1);
     for (const auto& mode : packed.modes) {
-        append(bytes, mode, 2);
+        append_sorted_bytes(bytes, mode, 2);
     }
-    append(bytes, packed.origins, 4);
-    append(bytes, packed.turns, 2);
+    append_sorted_bytes(bytes, packed.origins, 4);
+    append_sorted_bytes(bytes, packed.turns, 2);
     std::vector<int> facing;
     std::vector<int> component;
     std::vector<int> neighbours;
@@ -208,12 +197,12 @@ std::string payload(const PreviewModel& model, const PreviewSteps& steps, const 
         const auto around = f < steps.neighbours.size() ? steps.neighbours[f] : std::array<int, 4>{-1, -1, -1, -1};
         neighbours.insert(neighbours.end(), around.begin(), around.end());
     }
-    append(bytes, facing, 1);
-    append(bytes, component, 2);
+    append_sorted_bytes(bytes, facing, 1);
+    append_sorted_bytes(bytes, component, 2);
     for (const auto& weights : packed.weights) {
-        append(bytes, weights, 2);
+        append_sorted_bytes(bytes, weights, 2);
     }
-    append(bytes, neighbours, 4);
+    append_sorted_bytes(bytes, neighbours, 4);
     return packed_text(bytes);
 }
 

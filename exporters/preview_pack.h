@@ -22,4 +22,15 @@ std::string packed_text(const std::string& bytes);
 
 std::string base64(const std::string& bytes);
 
+//! Whole numbers, bytes sorted by significance: what deflate compresses best.
+template <class Numbers>
+void append_sorted_bytes(std::string& bytes, const Numbers& values, int size)
+{
+    for (int b = 0; b < size; ++b) {
+        for (const auto value : values) {
+            bytes.push_back(static_cast<char>(static_cast<std::uint32_t>(static_cast<std::int32_t>(value)) >> (8 * b)));
+        }
+    }
+}
+
 } // namespace rhombloom

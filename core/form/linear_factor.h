@@ -24,8 +24,7 @@ struct Task
 {
     std::vector<int> fronts;
     std::vector<double> stack;
-    int first_outer =
-        0; //!< place in the vector being solved for of the first of its rows outside; see LinearSolver::solve
+    int first_outer = 0; // place in the vector being solved for of the first of its rows outside
 };
 
 //! \brief What LinearSolver keeps of a pattern, and the factor itself.

@@ -26,6 +26,22 @@ VectorXd positions(const Surface& surface)
     return x;
 }
 
+struct Unfinished
+{
+    EmbeddingTerms terms;
+    Iterate iterate;
+};
+
+// A large ball where quasi-Newton steps get no further.
+Unfinished after_quasi_newton()
+{
+    const Surface surface = shapes::ball_surface(4);
+    Unfinished result{terms_of(surface), {}};
+    result.iterate = iterate_at(result.terms, positions(surface));
+    EXPECT_EQ(quasi_newton(result.terms, result.iterate, {}).reason, StopReason::Stalled);
+    return result;
+}
+
 TEST(GraphLaplacian, SolvesItsEquations)
 {
     const EmbeddingTerms terms = terms_of(shapes::ball_surface(2));
@@ -108,10 +124,7 @@ TEST(Minimise, LargeSurfacesConvergeInFewIterations)
 
 TEST(InteriorDescent, NeedsADozenFactorisations)
 {
-    const Surface surface = shapes::ball_surface(4);
-    const EmbeddingTerms terms = terms_of(surface);
-    Iterate iterate = iterate_at(terms, positions(surface));
-    ASSERT_EQ(quasi_newton(terms, iterate, {}).reason, StopReason::Stalled);
+    auto [terms, iterate] = after_quasi_newton();
     NewtonSystem system(terms, 1);
     const MinimiseResult result = interior_descent(terms, system, iterate, {});
     EXPECT_EQ(result.reason, StopReason::Stalled); // the rest is for Newton's method
@@ -123,10 +136,7 @@ TEST(InteriorDescent, NeedsADozenFactorisations)
 // After more quasi-Newton steps some edges happen to be without tension, and the Hessian is indefinite.
 TEST(InteriorDescent, FindsItsWayWhereEdgesAreSlack)
 {
-    const Surface surface = shapes::ball_surface(4);
-    const EmbeddingTerms terms = terms_of(surface);
-    Iterate iterate = iterate_at(terms, positions(surface));
-    ASSERT_EQ(quasi_newton(terms, iterate, {}).reason, StopReason::Stalled);
+    auto [terms, iterate] = after_quasi_newton();
     NewtonSystem system(terms, 1);
     for (int k = 0; k < 3; ++k) {
         ASSERT_EQ(quasi_newton(terms, iterate, {}).reason, StopReason::Stalled);
@@ -140,10 +150,7 @@ TEST(InteriorDescent, FindsItsWayWhereEdgesAreSlack)
 // There one factorisation of a softened Hessian serves many steps.
 TEST(Newton, ConvergesOnALargeSurfaceFromWhereTheHessianIsIndefinite)
 {
-    const Surface surface = shapes::ball_surface(4);
-    const EmbeddingTerms terms = terms_of(surface);
-    Iterate iterate = iterate_at(terms, positions(surface));
-    ASSERT_EQ(quasi_newton(terms, iterate, {}).reason, StopReason::Stalled);
+    auto [terms, iterate] = after_quasi_newton();
     NewtonSystem system(terms, 1);
     ASSERT_FALSE(system.factor(iterate, {}));
     const MinimiseResult result = newton_with(system, terms, iterate, {});
