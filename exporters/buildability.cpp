@@ -11,7 +11,6 @@ namespace rhombloom {
 
 namespace {
 
-constexpr double stretch_limit = 0.01; // a sheet gives a little; beyond, hooks jump out or the sheet tears
 constexpr double defect_margin = radians(10);
 
 //! The preset of polypropylene, the classic of these lamps, nearest in
@@ -42,17 +41,41 @@ Expected<Material> nearest_polypropylene(double thickness)
     return chosen;
 }
 
+//! Which elements stretch further than \p limit: how many, and where the worst is.
+std::string overstretched(const Surface& surface, const Element& element, double limit)
+{
+    int count = 0;
+    Face worst(0);
+    for (const Face f : surface.faces()) {
+        count += element_stretch(surface, element, f) > limit ? 1 : 0;
+        worst = element_stretch(surface, element, f) > element_stretch(surface, element, worst) ? f : worst;
+    }
+    return std::to_string(count) + (count == 1 ? " element: " : " elements, most of all ") +
+           std::to_string(worst.idx()) + " in \"" + surface.components[surface.data(worst).component] + "\"";
+}
+
+void judge_stretch(Buildability& report, const Surface& surface, const Piece& piece)
+{
+    const double stretch = report.embedding.max_stretch;
+    const std::string percent = to_fixed(100 * stretch, 3) + " %";
+    if (stretch > piece.stretch_limit) {
+        report.problems.push_back("an element would have to stretch by " + percent + ", possible is " +
+                                  to_text(100 * piece.stretch_limit) + " %: ease the tightest limb or junction (" +
+                                  overstretched(surface, piece.element, piece.stretch_limit) +
+                                  "), or cut a sheet that gives and allow it with --max-stretch");
+    } else if (stretch > usual_stretch_limit) {
+        report.warnings.push_back("elements have to stretch by up to " + percent + ", a usual sheet gives " +
+                                  to_text(100 * usual_stretch_limit) + " %: hooks may jump out (" +
+                                  overstretched(surface, piece.element, usual_stretch_limit) + ")");
+    }
+}
+
 void judge_embedding(Buildability& report)
 {
     const EmbedReport& e = report.embedding;
     if (!e.converged) {
         report.problems.push_back("the shape did not come to rest (largest gradient " + to_text(e.gradient_norm) +
                                   "): " + e.message);
-    }
-    if (e.max_stretch > stretch_limit) {
-        report.problems.push_back("an element would have to stretch by " + to_fixed(100 * e.max_stretch, 3) +
-                                  " %, possible is " + to_fixed(100 * stretch_limit, 0) +
-                                  " %: ease the tightest limb or junction");
     }
 }
 
@@ -111,6 +134,7 @@ Buildability buildability(const Replay& replay, const Piece& piece)
     report.embedding = replay.embedding;
     report.problems = validity.problems;
     judge_embedding(report);
+    judge_stretch(report, surface, piece);
     judge_defects(report, surface, piece.element);
     report.hooks = hook_checks(piece.parameters.hook, {piece.parameters.kerf, piece.material.strain_limit,
                                                        piece.material.finger_strain_limit});

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/design/history.h"
+#include "core/model/element_stretch.h"
 #include "exporters/hook_checks.h"
 #include "exporters/materials.h"
 #include "exporters/parameter_table.h"
@@ -16,7 +17,8 @@ struct Piece
                      //!< was asked for
     PieceParameters parameters;
     Material material;
-    std::vector<std::string> notes; //!< what the user should know about the choice
+    double stretch_limit = usual_stretch_limit; //!< largest stretch of an element that is let pass
+    std::vector<std::string> notes;             //!< what the user should know about the choice
 };
 
 //! \brief Choose the material (by name, or the polypropylene nearest to the

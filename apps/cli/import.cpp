@@ -7,6 +7,7 @@
 #include "core/design/design_file.h"
 #include "core/design/mesh_import/mesh_import.h"
 #include "core/design/mesh_import/network.h"
+#include "core/model/element_stretch.h"
 #include "core/text.h"
 #include "exporters/comparison.h"
 #include "exporters/mesh_reader.h"
@@ -57,11 +58,10 @@ std::string in_la(double mm, const ImportReport& report)
 //! Why the network cannot be built as it is; empty when it can.
 std::string build_problem(const ImportReport& report)
 {
-    constexpr double stretch_limit = 0.01;
     if (report.crosses) {
         return "elements cross each other: try more elements or a target without thin walls and narrow gaps";
     }
-    if (report.embedding.converged && report.embedding.max_stretch <= stretch_limit) {
+    if (report.embedding.converged && report.embedding.max_stretch <= usual_stretch_limit) {
         return {};
     }
     return "no network was found that can be built: an element would have to stretch by " +

@@ -22,6 +22,11 @@ std::shared_ptr<PieceOptions> add_piece_options(CLI::App& command)
     options->set.resize(table.size(), nullptr);
     options->material_set =
         command.add_option("--material", options->material, "what is cut, e.g. pp-0.5 (default: by the thickness)");
+    command
+        .add_option("--max-stretch", options->max_stretch,
+                    "of an element, for a sheet that gives more than the usual 1 % (percent, 0.1 to 5)")
+        ->check(CLI::Range(0.1, 5.0))
+        ->option_text("FLOAT");
     for (std::size_t i = 0; i < table.size(); ++i) {
         if (is_option(table[i])) {
             options->set[i] =
@@ -48,7 +53,11 @@ std::vector<ParameterSetting> PieceOptions::settings() const
 
 Expected<Piece> PieceOptions::piece(const Element& element) const
 {
-    return make_piece(element, material_set->count() > 0 ? std::optional(material) : std::nullopt, settings());
+    auto piece = make_piece(element, material_set->count() > 0 ? std::optional(material) : std::nullopt, settings());
+    if (piece) {
+        piece->stretch_limit = max_stretch / 100;
+    }
+    return piece;
 }
 
 } // namespace rhombloom::cli

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/model/angular_defect.h"
+#include "core/model/element_stretch.h"
 #include "exporters/bent_element.h"
 
 namespace rhombloom::studio {
@@ -53,7 +54,7 @@ void add_elements(const Surface& surface, const Element& element, int part, int 
                 arrays.first.push_back(k);
             }
         }
-        arrays.strains.push_back(static_cast<float>(strain(surface, element, f)));
+        arrays.strains.push_back(static_cast<float>(element_stretch(surface, element, f)));
         arrays.facing.push_back(surface.data(f).facing == Facing::Back ? 1 : 0);
         arrays.component.push_back(first_component + surface.data(f).component);
         arrays.part.push_back(part);
@@ -68,22 +69,6 @@ void append(std::string& bytes, const std::vector<T>& values)
 }
 
 } // namespace
-
-double strain(const Surface& surface, const Element& element, Face f)
-{
-    const auto corners = piece_corners(surface, f); // v0-v1 long, v0 acute
-    const auto length = [&](int a, int b) {
-        return (surface.point(Vertex(corners[a])) - surface.point(Vertex(corners[b]))).norm();
-    };
-    const double rest[6] = {
-        element.lb, element.la, element.lb, element.la, long_diagonal(element), short_diagonal(element)};
-    const double now[6] = {length(0, 1), length(1, 2), length(2, 3), length(3, 0), length(0, 2), length(1, 3)};
-    double largest = -1;
-    for (int k = 0; k < 6; ++k) {
-        largest = std::max(largest, now[k] / rest[k] - 1);
-    }
-    return largest;
-}
 
 std::string geometry_bytes(const std::vector<const Surface*>& parts, const Element& element,
                            nlohmann::ordered_json header)

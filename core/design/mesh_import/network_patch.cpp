@@ -7,6 +7,7 @@
 #include "core/form/embedding_terms.h"
 #include "core/form/minimise.h"
 #include "core/form/settle.h"
+#include "core/model/element_stretch.h"
 
 namespace rhombloom {
 
@@ -216,7 +217,7 @@ void rate(Patch& patch, const Surface& surface, const Trial& whole, const Trials
             sum += surface.point(Vertex(v));
         }
         const double distance = trials.target.nearest(scale * sum / 4).distance / scale / trials.element.la;
-        const double stretch = largest_stretch(surface, trials.element, f);
+        const double stretch = element_stretch(surface, trials.element, f);
         patch.badness += price * excess_stretch(stretch) +
                          distance * distance / (2 * whole.rms * static_cast<double>(whole.ratings.size()));
         if (stretch > patch.stretch && depth[q[0]] >= 3 && depth[q[2]] >= 3) {

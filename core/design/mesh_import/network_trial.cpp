@@ -6,6 +6,7 @@
 #include "core/design/mesh_import/join_network.h"
 #include "core/design/mesh_import/network_crossings.h"
 #include "core/design/pose.h"
+#include "core/model/element_stretch.h"
 #include "core/model/validity.h"
 
 namespace rhombloom {
@@ -48,21 +49,6 @@ EmbedReport embed_quickly(Surface& surface, const Trials& trials)
 }
 
 } // namespace
-
-double largest_stretch(const Surface& surface, const Element& element, Face f)
-{
-    const Quad q = quad(surface, f);
-    const auto length = [&](int a, int b) {
-        return (surface.point(Vertex(q[a])) - surface.point(Vertex(q[b]))).norm();
-    };
-    const bool front = surface.data(f).facing == Facing::Front;
-    double largest = std::max(length(0, 2) / (front ? long_diagonal(element) : short_diagonal(element)),
-                              length(1, 3) / (front ? short_diagonal(element) : long_diagonal(element)));
-    for (int k = 0; k < 4; ++k) {
-        largest = std::max(largest, length(k, (k + 1) % 4) / element.la);
-    }
-    return largest - 1;
-}
 
 bool has_permissible_defects(const Surface& surface, const Element& element)
 {
@@ -129,7 +115,7 @@ std::optional<Trial> settle(const Plan& plan, const Trials& trials)
     }
     std::vector<double> stretch;
     for (const Face f : surface->faces()) {
-        stretch.push_back(largest_stretch(*surface, trials.element, f));
+        stretch.push_back(element_stretch(*surface, trials.element, f));
         trial.excess += excess_stretch(stretch.back());
     }
     scale_about_origin(*surface, plan.scale);

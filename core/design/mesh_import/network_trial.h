@@ -51,10 +51,6 @@ struct Trial
 //! \brief Distance in la, and \p price times the excess of stretch; small is good.
 double score(const Trial& trial, double price);
 
-//! \brief The largest stretch of an element's sides and diagonals.
-//! \pre \p surface is a join: acute corners are first and third.
-double largest_stretch(const Surface& surface, const Element& element, Face f);
-
 //! \brief The join of \p plan, its points as they are.
 Expected<Surface> surface_of(const Plan& plan);
 

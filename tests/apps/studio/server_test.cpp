@@ -6,6 +6,7 @@
 #include "apps/studio/server/merge_preview.h"
 #include "core/design/pose.h"
 #include "core/model/base_shapes.h"
+#include "core/model/element_stretch.h"
 
 namespace rhombloom::studio {
 namespace {
@@ -64,11 +65,11 @@ TEST(Strain, IsNothingInAFlatElement)
     ASSERT_TRUE(sheet);
     Surface surface = sheet->surface;
     embed(surface, element);
-    EXPECT_NEAR(strain(surface, element, Face(0)), 0, 1e-6);
+    EXPECT_NEAR(element_stretch(surface, element, Face(0)), 0, 1e-6);
     for (const Vertex v : surface.vertices()) {
         surface.set_point(v, 1.02 * surface.point(v));
     }
-    EXPECT_NEAR(strain(surface, element, Face(0)), 0.02, 1e-6);
+    EXPECT_NEAR(element_stretch(surface, element, Face(0)), 0.02, 1e-6);
 }
 
 TEST(Strain, OfTheWorstElementIsTheLargestStretchOfTheEmbedding)
@@ -79,7 +80,7 @@ TEST(Strain, OfTheWorstElementIsTheLargestStretchOfTheEmbedding)
     const EmbedReport report = embed(ball->surface, element);
     double largest = -1;
     for (const Face f : ball->surface.faces()) {
-        largest = std::max(largest, strain(ball->surface, element, f));
+        largest = std::max(largest, element_stretch(ball->surface, element, f));
     }
     EXPECT_NEAR(largest, report.max_stretch, 1e-9);
     EXPECT_LT(largest, 0.01);

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/model/surface.h"
+
+namespace rhombloom {
+
+//! What a sheet gives; stretched further, hooks jump out or the sheet tears.
+inline constexpr double usual_stretch_limit = 0.01;
+
+//! \brief The largest (l - L) / L of an element's sides and diagonals, as EmbedReport::max_stretch is of a surface.
+//! \details Compression does not count: every long side is joined to a short one and bows, 9 % shorter with lb = 1.1
+//! la.
+double element_stretch(const Surface& surface, const Element& element, Face f);
+
+} // namespace rhombloom
