@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 #include "core/form/local_newton.h"
+#include "core/form/nearby_newton.h"
 #include "core/form/start_shape.h"
 
 namespace rhombloom {
@@ -12,13 +14,15 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double wild_energy = 20;       // la per spring pair on average: positions that know nothing of the shape
-constexpr double dimple = -0.785;        // radians
-constexpr double loaded_guards = 0.05;   // share of the energy
-constexpr double flattening = 1e-2;      // convex weight that unfolds a shape
-constexpr double same_energy = 1e-9;     // relative
-constexpr double collapsed_length = 0.4; // share of the rest length
-constexpr double collapsed_corner = 0.2; // sine of a corner
+constexpr double wild_energy = 20;        // la per spring pair on average: positions that know nothing of the shape
+constexpr double dimple = -0.785;         // radians
+constexpr double loaded_guards = 0.05;    // share of the energy
+constexpr double flattening = 1e-2;       // convex weight that unfolds a shape
+constexpr double same_energy = 1e-9;      // relative
+constexpr double collapsed_length = 0.4;  // share of the rest length
+constexpr double collapsed_corner = 0.2;  // sine of a corner
+constexpr double changed_imbalance = 2;   // gradient, where an equilibrium was changed a little
+constexpr double rounded_imbalance = .05; // where its positions were rounded
 
 struct Candidate
 {
@@ -211,12 +215,35 @@ bool unroll(const EmbeddingTerms& terms, Candidate& best, const MinimiseOptions&
     return false;
 }
 
-// In equilibrium as it is, with nothing but the energy of the paper.
-bool is_settled(const EmbeddingTerms& terms, const VectorXd& x, double tolerance)
+// Out of equilibrium by how much at most, for Newton's method to look nearby: an edited shape was in equilibrium, other
+// positions may be close to one that is no good.
+double most_imbalance(const EmbeddingTerms& terms, const MinimiseOptions& options, Start start)
+{
+    return start != Start::Edited ? options.tolerance : is_large(terms) ? rounded_imbalance : changed_imbalance;
+}
+
+// From positions close to an equilibrium of nothing but the energy of the paper, there. The guards would push a sharp
+// fold away from it, perhaps for good.
+std::optional<Settled> settle_nearby(EmbeddingTerms& terms, VectorXd& x, const MinimiseOptions& options, Start start)
 {
     EmbeddingTerms pure = terms;
     remove_guards(pure);
-    return iterate_at(pure, x).gradient_norm() <= tolerance && !has_collapsed(pure, x);
+    const Iterate begin = iterate_at(pure, x);
+    if (begin.gradient_norm() > most_imbalance(terms, options, start) || has_collapsed(pure, x)) {
+        return std::nullopt;
+    }
+    Candidate candidate{begin, {}};
+    candidate.result = local_newton(pure, candidate.iterate, options);
+    if (candidate.result.reason == StopReason::Stalled) {
+        candidate.iterate = begin;
+        candidate.result = nearby_newton(pure, candidate.iterate, options);
+    }
+    if (candidate.result.reason == StopReason::Stalled || has_collapsed(pure, candidate.iterate.x)) {
+        return std::nullopt;
+    }
+    terms = std::move(pure);
+    x = std::move(candidate.iterate.x);
+    return Settled{candidate.result, 0, false};
 }
 
 } // namespace
@@ -229,9 +256,8 @@ void remove_guards(EmbeddingTerms& terms)
 
 Settled settle(EmbeddingTerms& terms, VectorXd& x, const MinimiseOptions& options, Start start)
 {
-    if (is_settled(terms, x, options.tolerance)) {
-        remove_guards(terms);
-        return {{StopReason::Converged, 0}, 0, false};
+    if (auto settled = settle_nearby(terms, x, options, start)) {
+        return *settled;
     }
     VectorXd first = usable(terms, x);
     if (is_wild(terms, first)) {

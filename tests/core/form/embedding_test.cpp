@@ -163,6 +163,43 @@ TEST(Embedding, KeepsThePoseOfTheInput)
     EXPECT_LT(largest_distance(surface, noisy), 30);
 }
 
+// Two elements that share an edge, at rest in the plane.
+Surface two_elements()
+{
+    SurfaceLists lists;
+    lists.positions = {{0, 0, 0}, {80, 0, 0}, {120, 70, 0}, {40, 70, 0}, {120, -70, 0}, {40, -70, 0}};
+    lists.quads = {{0, 1, 2, 3}, {0, 5, 4, 1}};
+    for (int v = 0; v < 6; ++v) {
+        lists.sides.push_back(v % 2 == 0 ? Side::Long : Side::Short);
+    }
+    lists.facing.assign(2, Facing::Front);
+    lists.component.assign(2, 0);
+    lists.serial.assign(2, -1);
+    Surface surface = make_surface(lists).value();
+    EXPECT_TRUE(embed(surface, {}).converged);
+    return surface;
+}
+
+// Beyond 2.4 rad a ridge opens a hinge on the way to an equilibrium; one that has come to rest there is at rest.
+TEST(Embedding, LeavesASharpFoldThatIsAtRest)
+{
+    Surface surface = two_elements();
+    const Vec3 origin = surface.point(Vertex(0));
+    const Vec3 edge = (surface.point(Vertex(1)) - origin).normalized();
+    const Eigen::AngleAxisd fold(2.5, edge);
+    for (const int v : {4, 5}) {
+        surface.set_point(Vertex(v), origin + fold * (surface.point(Vertex(v)) - origin));
+    }
+    const Surface folded = surface;
+    shapes::add_noise(surface, 1e-3, 1);
+    EmbedOptions options;
+    options.start = Start::Edited;
+    const EmbedReport report = embed(surface, {}, options);
+    EXPECT_TRUE(report.converged);
+    EXPECT_EQ(report.guard_energy, 0);
+    EXPECT_LT(largest_distance(surface, folded), 0.05);
+}
+
 TEST(Embedding, MovesOnlyWhatAnEditReaches)
 {
     const Surface settled = settled_ball(2);
