@@ -69,6 +69,12 @@ std::array<Vector3d, 4> gradient_of(const std::array<Wing, 2>& w)
 
 } // namespace
 
+HingePoints hinge_points(const Eigen::VectorXd& x, const HingeVertices& hinge)
+{
+    return {x.segment<3>(3 * hinge[0]), x.segment<3>(3 * hinge[1]), x.segment<3>(3 * hinge[2]),
+            x.segment<3>(3 * hinge[3])};
+}
+
 double hinge_angle(const HingePoints& p)
 {
     const Vector3d edge = p.x1 - p.x0;
@@ -138,6 +144,13 @@ HingeResponse hinge_response(const HingeLaw& law, double angle)
         out.moment += 2 * ridge * excess;
         out.stiffness += 2 * ridge;
     }
+    return out;
+}
+
+HingeResponse shared_response(const HingeLaw& law, double angle, double share)
+{
+    HingeResponse out = hinge_response(law, angle);
+    out.stiffness += 2 * law.concavity_weight * (1 - law.convex_weight) * (share - (angle < 0 ? 1.0 : 0.0));
     return out;
 }
 

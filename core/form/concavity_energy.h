@@ -13,6 +13,12 @@ struct HingePoints
     Eigen::Vector3d x0, x1, x2, x3;
 };
 
+//! \brief The vertices of a hinge: {x0, x1, left apex, right apex} as in HingePoints.
+using HingeVertices = std::array<int, 4>;
+
+//! \brief The points of a hinge among the positions \p x, three coordinates per vertex.
+HingePoints hinge_points(const Eigen::VectorXd& x, const HingeVertices& hinge);
+
 //! \brief Signed dihedral angle: zero when flat, positive when convex seen from outside, in (-pi, pi].
 double hinge_angle(const HingePoints& p);
 
@@ -57,5 +63,9 @@ struct HingeResponse
 double ridge_weight(const HingeLaw& law);
 
 HingeResponse hinge_response(const HingeLaw& law, double angle);
+
+//! \brief hinge_response() for a Hessian that need not know whether the hinge is concave: as stiff as if it were so by
+//! \p share, 0 to 1.
+HingeResponse shared_response(const HingeLaw& law, double angle, double share);
 
 } // namespace rhombloom

@@ -24,11 +24,6 @@ Vector3d point(const VectorXd& x, int v)
     return x.segment<3>(3 * v);
 }
 
-HingePoints hinge_points(const VectorXd& x, const HingeVertices& hinge)
-{
-    return {point(x, hinge[0]), point(x, hinge[1]), point(x, hinge[2]), point(x, hinge[3])};
-}
-
 SpringResponse pair_response(const SpringLaw& law, const SpringPair& pair, double length)
 {
     SpringResponse sum;

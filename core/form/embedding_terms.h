@@ -20,9 +20,6 @@ struct SpringPair
     std::array<double, 2> inverse_rest = {0, 0}; //!< 1 / rest; 0 when there is no second one
 };
 
-//! \brief One end of an interior edge: {x0, x1, left apex, right apex} as in HingePoints.
-using HingeVertices = std::array<int, 4>;
-
 //! \brief The energy of DESIGN.md section 3 as lists of terms, in units of la.
 //! \details In these units neither the gradient nor the shape depends on the size of the element: an energy in mm is la
 //! times the energy here, a gradient is the same number in both.
@@ -33,7 +30,7 @@ struct EmbeddingTerms
     double la = 0;                   //!< mm
     std::vector<SpringPair> springs; //!< those along edges first
     int edge_count = 0;              //!< how many these are; the others are diagonals
-    std::vector<HingeVertices> hinges;
+    std::vector<HingeVertices> hinges; //!< one per end of an interior edge
     SpringLaw spring_law;
     HingeLaw hinge_law;
 };

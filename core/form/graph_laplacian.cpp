@@ -47,7 +47,7 @@ std::vector<int> elimination_order(const EmbeddingTerms& terms)
 struct GraphLaplacian::Factor
 {
     std::vector<int> order;
-    Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> cholesky;
+    SparseMatrix lower; // each column begins with its diagonal entry
 };
 
 GraphLaplacian::GraphLaplacian(const EmbeddingTerms& terms, const LaplacianWeights& weights)
@@ -58,18 +58,41 @@ GraphLaplacian::GraphLaplacian(const EmbeddingTerms& terms, const LaplacianWeigh
     for (std::size_t k = 0; k < position.size(); ++k) {
         position[factor_->order[k]] = static_cast<int>(k);
     }
-    factor_->cholesky.compute(laplacian(terms, weights, position));
-    expects(factor_->cholesky.info() == Eigen::Success, "GraphLaplacian: weights that make it positive definite");
+    const Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> cholesky(
+        laplacian(terms, weights, position));
+    expects(cholesky.info() == Eigen::Success, "GraphLaplacian: weights that make it positive definite");
+    factor_->lower = cholesky.matrixL();
 }
 
 GraphLaplacian::~GraphLaplacian() = default;
 
-Eigen::MatrixXd GraphLaplacian::solve(const Eigen::MatrixXd& right_sides) const
+// All three columns together, as they ask for the same entries of the factor.
+Eigen::MatrixX3d GraphLaplacian::solve(const Eigen::MatrixX3d& right_sides) const
 {
-    const Eigen::MatrixXd ordered = right_sides(factor_->order, Eigen::all);
-    const Eigen::MatrixXd solution = factor_->cholesky.solve(ordered);
-    Eigen::MatrixXd out(right_sides.rows(), right_sides.cols());
-    out(factor_->order, Eigen::all) = solution;
+    const SparseMatrix& lower = factor_->lower;
+    Eigen::Matrix3Xd y = right_sides(factor_->order, Eigen::all).transpose();
+    const auto column = [&](Eigen::Index j) {
+        return std::pair(lower.outerIndexPtr()[j], lower.outerIndexPtr()[j + 1]);
+    };
+    const double* value = lower.valuePtr();
+    const int* row = lower.innerIndexPtr();
+    for (Eigen::Index j = 0; j < lower.cols(); ++j) {
+        const auto [begin, end] = column(j);
+        const Eigen::Vector3d pivot = y.col(j) /= value[begin];
+        for (int k = begin + 1; k < end; ++k) {
+            y.col(row[k]) -= value[k] * pivot;
+        }
+    }
+    for (Eigen::Index j = lower.cols(); j-- > 0;) {
+        const auto [begin, end] = column(j);
+        Eigen::Vector3d sum = y.col(j);
+        for (int k = begin + 1; k < end; ++k) {
+            sum -= value[k] * y.col(row[k]);
+        }
+        y.col(j) = sum / value[begin];
+    }
+    Eigen::MatrixX3d out(right_sides.rows(), 3);
+    out(factor_->order, Eigen::all) = y.transpose();
     return out;
 }
 

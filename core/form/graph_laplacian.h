@@ -24,7 +24,7 @@ public:
     ~GraphLaplacian();
 
     //! \brief Solve for each column of \p right_sides, one row per vertex.
-    Eigen::MatrixXd solve(const Eigen::MatrixXd& right_sides) const;
+    Eigen::MatrixX3d solve(const Eigen::MatrixX3d& right_sides) const;
 
 private:
     struct Factor;

@@ -49,7 +49,7 @@ MinimiseResult newton_with(NewtonSystem& system, const EmbeddingTerms& terms, It
 MinimiseResult quasi_newton(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options);
 
 //! \brief A primal-dual interior-point method for the concave hinges, until it is known which these are; then the
-//! result is Stalled.
+//! result is Stalled, or Converged if the last factor was good enough for the rest.
 //! \details On a large surface whole regions are nearly flat, and which of their hinges are concave is open to the
 //! last. Slack and moment of every hinge are unknowns of their own, and how much of each bears load is settled for all
 //! of them together (Mehrotra 1992), in a dozen factorisations whatever the size.

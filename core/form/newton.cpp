@@ -45,13 +45,10 @@ std::vector<HingeResponse> softened(const EmbeddingTerms& terms, const VectorXd&
 {
     std::vector<HingeResponse> out;
     out.reserve(terms.hinges.size());
-    const HingeLaw& law = terms.hinge_law;
-    for (const HingeVertices& h : terms.hinges) {
-        const double angle = hinge_angle(
-            {x.segment<3>(3 * h[0]), x.segment<3>(3 * h[1]), x.segment<3>(3 * h[2]), x.segment<3>(3 * h[3])});
-        HingeResponse& response = out.emplace_back(hinge_response(law, angle));
+    for (const HingeVertices& hinge : terms.hinges) {
+        const double angle = hinge_angle(hinge_points(x, hinge));
         const double share = (1 - angle / std::sqrt(angle * angle + 4 * width * width)) / 2;
-        response.stiffness += 2 * law.concavity_weight * (1 - law.convex_weight) * (share - (angle < 0 ? 1.0 : 0.0));
+        out.push_back(shared_response(terms.hinge_law, angle, share));
     }
     return out;
 }
@@ -59,9 +56,8 @@ std::vector<HingeResponse> softened(const EmbeddingTerms& terms, const VectorXd&
 double mean_angle(const EmbeddingTerms& terms, const VectorXd& x)
 {
     double sum = 0;
-    for (const HingeVertices& h : terms.hinges) {
-        sum += std::abs(hinge_angle(
-            {x.segment<3>(3 * h[0]), x.segment<3>(3 * h[1]), x.segment<3>(3 * h[2]), x.segment<3>(3 * h[3])}));
+    for (const HingeVertices& hinge : terms.hinges) {
+        sum += std::abs(hinge_angle(hinge_points(x, hinge)));
     }
     return sum / double(terms.hinges.size());
 }

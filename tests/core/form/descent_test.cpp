@@ -46,8 +46,8 @@ TEST(GraphLaplacian, SolvesItsEquations)
 {
     const EmbeddingTerms terms = terms_of(shapes::ball_surface(2));
     const LaplacianWeights weights{3, 0.5, 0.1};
-    const Eigen::MatrixXd right = Eigen::MatrixXd::Random(terms.vertex_count, 2);
-    const Eigen::MatrixXd x = GraphLaplacian(terms, weights).solve(right);
+    const Eigen::MatrixX3d right = Eigen::MatrixX3d::Random(terms.vertex_count, 3);
+    const Eigen::MatrixX3d x = GraphLaplacian(terms, weights).solve(right);
     Eigen::MatrixXd product = weights.shift * x;
     for (std::size_t k = 0; k < terms.springs.size(); ++k) {
         const SpringPair& pair = terms.springs[k];
@@ -127,9 +127,8 @@ TEST(InteriorDescent, NeedsADozenFactorisations)
     auto [terms, iterate] = after_quasi_newton();
     NewtonSystem system(terms, 1);
     const MinimiseResult result = interior_descent(terms, system, iterate, {});
-    EXPECT_EQ(result.reason, StopReason::Stalled); // the rest is for Newton's method
-    EXPECT_LE(result.iterations, 15);
-    EXPECT_LE(iterate.gradient_norm(), 1e-5);
+    EXPECT_EQ(result.reason, StopReason::Converged); // the last factor is good enough for the rest
+    EXPECT_LE(result.iterations, 12);
     EXPECT_NEAR(iterate.energy, 229.2594380267, 1e-8);
 }
 
