@@ -6,7 +6,7 @@ namespace rhombloom {
 
 namespace {
 
-constexpr int most_iterations = 40;
+constexpr int most_iterations = 100;
 constexpr double longest_move = 0.1; // la, of a vertex in one step
 
 } // namespace

@@ -14,230 +14,336 @@ namespace rhombloom {
 namespace {
 
 constexpr std::size_t most_places = 6;
-constexpr std::size_t beam = 8; // changes of a place that are changed further
-constexpr int depth = 4;        // changes one after another
+constexpr std::size_t most_settled = 8; // changes of one network, those of which patches expect most
+constexpr int most_nodes = 12;          // networks of a place that are changed further
+constexpr int depth = 5;                // changes one after another
 constexpr double least_gain = 2e-4;
+constexpr int most_iterations = 60; // of a whole; a change that has a long way to go only does damage
 
-//! A place and what has become of it so far.
-struct Search
+//! A network on the way from the best so far, in equilibrium.
+struct Node
 {
-    Corners place;
-    Patch start;
-    std::vector<Patch> layer; //!< the best of the latest changes
-    Patch best;
-    std::vector<double> seen; //!< badness of all that was changed further
+    Trial trial;
+    Corners focus; //!< the element to be changed next
+    int changes = 0;
 };
 
-//! The best few of the layer that are not what has been there before: different changes often end alike.
-void keep_new(Search& search)
-{
-    constexpr double same = 1e-4;
-    std::vector<Patch> kept;
-    for (Patch& patch : search.layer) {
-        const bool known = std::any_of(search.seen.begin(), search.seen.end(),
-                                       [&](double badness) { return std::abs(badness - patch.badness) < same; });
-        if (!known && kept.size() < beam) {
-            search.seen.push_back(patch.badness);
-            kept.push_back(std::move(patch));
-        }
-    }
-    search.layer = std::move(kept);
-}
-
+//! A change of a node, tried in a patch.
 struct Step
 {
-    std::size_t search = 0;
-    std::size_t parent = 0;
+    const Node* node = nullptr;
+    const Patch* start = nullptr;
     Move move;
     std::optional<Patch> result;
+    double gain = 0; //!< of the node's score, to first order
+};
+
+//! A node after some changes that patches have found.
+struct Change
+{
+    const Trial* whole = nullptr;
+    std::vector<Patch> parts;
+    const Node* node = nullptr; //!< none: of several
+    std::optional<Trial> result{};
+};
+
+//! A stretched element, and the networks with changes near it.
+struct Place
+{
+    Vec3 where = Vec3::Zero();
+    std::vector<Node> open;   //!< not yet changed further, the best last
+    std::vector<double> seen; //!< energies of all that there were, mm: no two networks have the same
 };
 
 class Easing
 {
 public:
     Easing(Trial& best, const Trials& trials, double price, long work)
-        : best_(best), trials_(trials), price_(price), work_(work), crosses_(has_crossings(best.found.surface))
+        : best_(best), trials_{trials.target, trials.element, trials.options, most_iterations}, price_(price),
+          work_(work), edge_(triangle_edge(trials.element) * best.plan.scale),
+          crosses_(has_crossings(best.found.surface))
     {
     }
 
     void run()
     {
-        const auto& progress = trials_.options.progress;
-        while (work_ > 0 && best_.excess > 0 && !can_be_built(best_) && round() &&
-               (!progress || progress("easing the stretch"))) {
+        while (best_.excess > 0 && !can_be_built(best_) && goes_on() && round()) {
         }
     }
 
 private:
+    bool goes_on() const
+    {
+        const auto& progress = trials_.options.progress;
+        return work_ > 0 && (!progress || progress("easing the stretch"));
+    }
     bool round();
-    std::vector<Search> searches() const;
-    void deepen(std::vector<Search>& searches);
-    std::vector<std::vector<Patch>> improvements(const std::vector<Search>& searches) const;
-    bool take(const std::vector<Search>& searches);
-    void give_up(const std::vector<Search>& searches);
-    MoveLimits limits() const;
+    std::vector<Place> places() const;
+    std::vector<Step> steps(const std::vector<Node>& nodes, std::vector<Patch>& patches);
+    double expected(const Step& step) const { return score(step.node->trial) - step.gain; }
+    void settle_all(std::vector<Change>& changes);
+    bool change_all(std::vector<Place>& places);
+    bool change_further(Place& place);
+    void keep(Place& place, std::vector<Change>& changes) const;
+    bool is_better(const Trial& trial) const;
+    bool take(std::vector<Change>& changes);
+    Corners focus(const Trial& trial, const Vec3& where) const;
+    MoveLimits limits(const Trial& trial) const;
+    double score(const Trial& trial) const { return rhombloom::score(trial, price_); }
 
     Trial& best_;
-    const Trials& trials_;
+    Trials trials_;
     double price_;
     long work_;
+    double edge_;               //!< of a triangle, where the target was searched
     bool crosses_;              //!< elements cross each other
-    std::set<Corners> in_vain_; //!< places
+    std::vector<Vec3> in_vain_; //!< places
 };
 
-MoveLimits Easing::limits() const
+MoveLimits Easing::limits(const Trial& trial) const
 {
     constexpr double most_changed = 0.04;
     const double asked = trials_.options.elements;
-    const auto count = static_cast<double>(best_.ratings.size());
+    const auto count = static_cast<double>(trial.ratings.size());
     return {max_move_degree(trials_.element), count + 3 <= (1 + most_changed) * asked,
             count - 3 >= (1 - most_changed) * asked, true};
 }
 
-//! The most stretched elements, in patches that have nothing in common.
-std::vector<Search> Easing::searches() const
+Corners corners_of(const Trial& trial, int element)
 {
-    std::vector<int> order(best_.ratings.size());
+    const Quad q = quad(trial.found.surface, Face(element));
+    return std::minmax(q[0], q[2]);
+}
+
+//! Elements, the most stretched first.
+std::vector<int> by_stretch(const Trial& trial)
+{
+    std::vector<int> order(trial.ratings.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
-                     [&](int a, int b) { return best_.ratings[a].stretch > best_.ratings[b].stretch; });
-    std::vector<Search> result;
-    std::vector<bool> taken(best_.plan.triangles.triangles.size(), false);
-    for (const int k : order) {
-        if (excess_stretch(best_.ratings[k].stretch) == 0 || result.size() == most_places) {
+                     [&](int a, int b) { return trial.ratings[a].stretch > trial.ratings[b].stretch; });
+    return order;
+}
+
+//! The most stretched element near a place.
+Corners Easing::focus(const Trial& trial, const Vec3& where) const
+{
+    constexpr double near = 2.5;
+    const std::vector<int> order = by_stretch(trial);
+    const auto found = std::find_if(order.begin(), order.end(),
+                                    [&](int k) { return (trial.ratings[k].middle - where).norm() < near * edge_; });
+    return corners_of(trial, found == order.end() ? order.front() : *found);
+}
+
+//! The most stretched elements, away from each other and from what was in vain.
+std::vector<Place> Easing::places() const
+{
+    constexpr double apart = 8;
+    constexpr double close = 1.5;
+    std::vector<Place> result;
+    for (const int k : by_stretch(best_)) {
+        const ElementRating& rating = best_.ratings[k];
+        if (excess_stretch(rating.stretch) == 0 || result.size() == most_places) {
             break;
         }
-        const Quad q = quad(best_.found.surface, Face(k));
-        const Corners place = std::minmax(q[0], q[2]);
-        if (in_vain_.count(place) > 0) {
+        const auto within = [&](double edges) {
+            return [&, edges](const Vec3& other) { return (other - rating.middle).norm() < edges * edge_; };
+        };
+        if (std::any_of(in_vain_.begin(), in_vain_.end(), within(close)) ||
+            std::any_of(result.begin(), result.end(), [&](const Place& p) { return within(apart)(p.where); })) {
             continue;
         }
-        Patch patch = patch_around(best_, place, trials_, price_);
-        if (std::any_of(patch.triangles.begin(), patch.triangles.end(), [&](int i) { return taken[i]; })) {
-            continue;
-        }
-        for (const int i : patch.triangles) {
-            taken[i] = true;
-        }
-        result.push_back({place, patch, {patch}, patch, {patch.badness}});
+        result.push_back({rating.middle, {{best_, corners_of(best_, k), 0}}, {best_.found.embedding.energy}});
     }
     return result;
 }
 
-//! One more change everywhere, of the best so far.
-void Easing::deepen(std::vector<Search>& searches)
+//! All changes near the focus of each node, tried in its patch; those that gain most first.
+std::vector<Step> Easing::steps(const std::vector<Node>& nodes, std::vector<Patch>& patches)
 {
-    std::vector<Step> steps;
-    for (std::size_t i = 0; i < searches.size(); ++i) {
-        for (std::size_t j = 0; j < searches[i].layer.size(); ++j) {
-            const Patch& patch = searches[i].layer[j];
-            for (const Move& move : moves_near(patch.plan, patch.worst, limits())) {
-                steps.push_back({i, j, move, std::nullopt});
-            }
+    patches.resize(nodes.size());
+    parallel_tasks(default_threads(), static_cast<int>(nodes.size()),
+                   [&](int k) { patches[k] = patch_around(nodes[k].trial, nodes[k].focus, trials_, price_); });
+    std::vector<Step> result;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        for (const Move& move : moves_near(patches[k].plan, patches[k].worst, limits(nodes[k].trial))) {
+            result.push_back({&nodes[k], &patches[k], move, std::nullopt});
         }
     }
-    parallel_tasks(default_threads(), static_cast<int>(steps.size()), [&](int k) {
-        Step& step = steps[k];
-        step.result = changed(searches[step.search].layer[step.parent], step.move, best_, trials_, price_);
+    parallel_tasks(default_threads(), static_cast<int>(result.size()), [&](int k) {
+        Step& step = result[k];
+        step.result = changed(*step.start, step.move, step.node->trial, trials_, price_);
     });
-    for (Search& search : searches) {
-        search.layer.clear();
-    }
-    for (Step& step : steps) {
-        Search& search = searches[step.search];
+    for (Step& step : result) {
         constexpr long cost_of_none = 100;
-        const auto size = static_cast<long>(search.start.triangles.size());
+        const auto size = static_cast<long>(step.start->triangles.size());
         work_ -= size * (step.result ? step.result->iterations + 20 : cost_of_none);
-        if (step.result) {
-            search.layer.push_back(std::move(*step.result));
-        }
+        step.gain = step.result ? step.start->badness - step.result->badness : 0;
     }
-    for (Search& search : searches) {
-        std::stable_sort(search.layer.begin(), search.layer.end(),
-                         [](const Patch& a, const Patch& b) { return a.badness < b.badness; });
-        keep_new(search);
-        if (!search.layer.empty() && search.layer.front().badness < search.best.badness) {
-            search.best = search.layer.front();
-        }
-    }
+    result.erase(std::remove_if(result.begin(), result.end(), [](const Step& step) { return !step.result; }),
+                 result.end());
+    std::stable_sort(result.begin(), result.end(),
+                     [&](const Step& a, const Step& b) { return expected(a) < expected(b); });
+    return result;
 }
 
-//! What has become better in the patches: all at once, and each alone.
-std::vector<std::vector<Patch>> Easing::improvements(const std::vector<Search>& searches) const
+//! Settle the wholes with the changes. Elements that did not cross each other stay apart.
+void Easing::settle_all(std::vector<Change>& changes)
 {
-    constexpr std::size_t most_alone = 8; // of a place: not everything that is good in its patch is good in the whole
-    std::vector<Patch> best;
-    std::vector<std::vector<Patch>> sets;
-    for (const Search& search : searches) {
-        const double enough = search.start.badness - least_gain;
-        if (search.best.badness < enough) {
-            best.push_back(search.best);
-        }
-        for (std::size_t k = 0; k < std::min(most_alone, search.layer.size()); ++k) {
-            if (search.layer[k].badness < enough) {
-                sets.push_back({search.layer[k]});
-            }
-        }
-    }
-    if (best.size() > 1) {
-        sets.push_back(std::move(best));
-    }
-    return sets;
-}
-
-//! Take the best of the improvements, settled with the whole. Elements that did not cross each other stay apart.
-bool Easing::take(const std::vector<Search>& searches)
-{
-    const std::vector<std::vector<Patch>> sets = improvements(searches);
-    std::vector<std::optional<Trial>> results(sets.size());
-    parallel_tasks(default_threads(), static_cast<int>(sets.size()), [&](int k) {
-        results[k] = settle(replaced(best_, sets[k]), trials_);
-        if (results[k] && !crosses_ && has_crossings(results[k]->found.surface)) {
-            results[k].reset();
+    parallel_tasks(default_threads(), static_cast<int>(changes.size()), [&](int k) {
+        Change& change = changes[k];
+        change.result = settle(replaced(*change.whole, change.parts), trials_);
+        if (change.result && !crosses_ && has_crossings(change.result->found.surface)) {
+            change.result.reset();
         }
     });
+    for (const Change& change : changes) {
+        work_ -= change.result ? change.result->cost : static_cast<long>(best_.ratings.size()) * most_iterations;
+    }
+}
+
+bool Easing::is_better(const Trial& trial) const
+{
+    const bool built = can_be_built(trial);
+    const bool best_built = can_be_built(best_);
+    return built != best_built ? built : score(trial) < score(best_) - least_gain;
+}
+
+//! The best of the changes becomes the best of all, if it is.
+bool Easing::take(std::vector<Change>& changes)
+{
     bool taken = false;
-    for (std::optional<Trial>& trial : results) {
-        if (trial && score(*trial, price_) < score(best_, price_) - least_gain) {
-            best_ = std::move(*trial);
+    for (Change& change : changes) {
+        if (change.result && is_better(*change.result)) {
+            best_ = std::move(*change.result);
+            change.result.reset();
             taken = true;
         }
     }
-    crosses_ = crosses_ && (!taken || has_crossings(best_.found.surface));
+    if (taken) {
+        crosses_ = crosses_ && has_crossings(best_.found.surface);
+        in_vain_.clear();
+    }
     return taken;
 }
 
-//! Not to be tried again until something has changed: the places and what is stretched close to them.
-void Easing::give_up(const std::vector<Search>& searches)
+//! Is one of \p values this one, within rounding? Different changes often end alike.
+bool is_known(const std::vector<double>& values, double value)
 {
-    const double close = 1.5 * triangle_edge(trials_.element) * best_.plan.scale;
-    const auto middle = [&](const Corners& place) {
-        return Vec3((best_.plan.triangles.points[place.first] + best_.plan.triangles.points[place.second]) / 2);
-    };
-    for (const Face f : best_.found.surface.faces()) {
-        const Quad q = quad(best_.found.surface, f);
-        const Corners place = std::minmax(q[0], q[2]);
-        if (std::any_of(searches.begin(), searches.end(),
-                        [&](const Search& s) { return (middle(s.place) - middle(place)).norm() < close; })) {
-            in_vain_.insert(place);
+    constexpr double same = 1e-4;
+    return std::any_of(values.begin(), values.end(), [&](double other) { return std::abs(other - value) < same; });
+}
+
+//! Changes that have not been there before are to be changed further, the best first.
+void Easing::keep(Place& place, std::vector<Change>& changes) const
+{
+    for (Change& change : changes) {
+        if (!change.result || is_known(place.seen, change.result->found.embedding.energy)) {
+            continue;
+        }
+        place.seen.push_back(change.result->found.embedding.energy);
+        const Corners focus = this->focus(*change.result, place.where);
+        place.open.push_back({std::move(*change.result), focus, change.node->changes + 1});
+    }
+    std::stable_sort(place.open.begin(), place.open.end(),
+                     [&](const Node& a, const Node& b) { return score(a.trial) > score(b.trial); });
+}
+
+bool have_common(const Patch& a, const Patch& b)
+{
+    return std::find_first_of(a.triangles.begin(), a.triangles.end(), b.triangles.begin(), b.triangles.end()) !=
+           a.triangles.end();
+}
+
+//! One change at every place, alone and all at once.
+bool Easing::change_all(std::vector<Place>& places)
+{
+    std::vector<Node> nodes;
+    for (const Place& place : places) {
+        nodes.push_back(place.open.back());
+    }
+    const std::size_t most = std::max<std::size_t>(3, most_settled / places.size());
+    std::vector<Patch> patches;
+    std::vector<Change> changes;
+    std::vector<std::size_t> counts(places.size());
+    Change all{&best_, {}};
+    std::vector<std::vector<double>> seen(places.size(), {score(best_)});
+    for (Step& step : steps(nodes, patches)) {
+        if (is_known(seen[step.node - nodes.data()], expected(step))) {
+            continue;
+        }
+        seen[step.node - nodes.data()].push_back(expected(step));
+        std::size_t& count = counts[step.node - nodes.data()];
+        const auto clashes = [&](const Patch& other) { return have_common(*step.result, other); };
+        if (count == 0 && step.gain > 0 && std::none_of(all.parts.begin(), all.parts.end(), clashes)) {
+            all.parts.push_back(*step.result);
+        }
+        if (count < most) {
+            changes.push_back({&best_, {std::move(*step.result)}, step.node});
+        }
+        ++count;
+    }
+    if (all.parts.size() > 1) {
+        changes.push_back(std::move(all));
+    }
+    settle_all(changes);
+    if (take(changes)) {
+        return true;
+    }
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        places[i].open.clear();
+        std::vector<Change> here;
+        for (Change& change : changes) {
+            if (change.node == &nodes[i]) {
+                here.push_back(std::move(change));
+            }
+        }
+        keep(places[i], here);
+    }
+    return false;
+}
+
+//! One more change of the best network that a place has come to.
+bool Easing::change_further(Place& place)
+{
+    const std::vector<Node> nodes = {std::move(place.open.back())};
+    place.open.pop_back();
+    std::vector<Patch> patches;
+    std::vector<Change> changes;
+    std::vector<double> seen = {score(nodes.front().trial)};
+    for (Step& step : steps(nodes, patches)) {
+        if (changes.size() < most_settled && !is_known(seen, expected(step))) {
+            seen.push_back(expected(step));
+            changes.push_back({&nodes.front().trial, {std::move(*step.result)}, &nodes.front()});
         }
     }
+    settle_all(changes);
+    if (take(changes)) {
+        return true;
+    }
+    if (nodes.front().changes + 1 < depth) {
+        keep(place, changes);
+    }
+    return false;
 }
 
 bool Easing::round()
 {
-    std::vector<Search> searches = this->searches();
-    if (searches.empty()) {
+    std::vector<Place> places = this->places();
+    if (places.empty()) {
         return false;
     }
-    for (int k = 0; k < depth; ++k) {
-        deepen(searches);
-        if (take(searches)) {
-            in_vain_.clear();
-            return true;
-        }
+    if (change_all(places)) {
+        return true;
     }
-    give_up(searches);
+    for (Place& place : places) {
+        for (int k = 0; k < most_nodes && !place.open.empty(); ++k) {
+            if (!goes_on() || change_further(place)) {
+                return true;
+            }
+        }
+        in_vain_.push_back(place.where);
+    }
     return true;
 }
 

@@ -6,8 +6,8 @@ namespace rhombloom {
 
 //! \brief Change the network of \p best around its most stretched elements until it can be built, as far as
 //! \p work iterations times elements of small patches go.
-//! \details Changes, and changes after changes, are tried in patches; the best are taken if the whole, settled, scores
-//! better.
+//! \details Changes are tried in patches, and the whole is settled after those that promise most. The best of these is
+//! taken if it scores better; if none does, the next change is tried in the best of them, as far as a few changes go.
 void ease(Trial& best, const Trials& trials, double price, long work);
 
 } // namespace rhombloom

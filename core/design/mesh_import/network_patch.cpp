@@ -14,7 +14,7 @@ namespace rhombloom {
 namespace {
 
 constexpr int reach = 4; // edges from the place to the last corners that have all their triangles
-constexpr double tolerance = 1e-5;
+constexpr double tolerance = 1e-4;
 constexpr int most_iterations = 400;
 
 using Neighbours = std::vector<std::vector<int>>;
@@ -236,6 +236,12 @@ void take_points(const Surface& surface, Plan& plan)
     }
 }
 
+//! The same network, wherever it is?
+bool is_same(const Plan& a, const Plan& b)
+{
+    return a.triangles.triangles == b.triangles.triangles && a.flipped == b.flipped;
+}
+
 } // namespace
 
 Patch patch_around(const Trial& whole, const Corners& place, const Trials& trials, double price)
@@ -277,6 +283,9 @@ std::optional<Patch> changed(const Patch& patch, const Move& move, const Trial& 
 {
     Patch result;
     result.plan = carry_out({move}, patch.plan);
+    if (move.kind != Move::Kind::Pop && is_same(result.plan, patch.plan)) {
+        return std::nullopt;
+    }
     result.triangles = patch.triangles;
     auto surface = surface_of(result.plan);
     if (!surface || !has_permissible_defects(*surface, trials.element)) {

@@ -20,8 +20,8 @@ struct Patch
 //! \brief The triangles within a few edges of the element between the corners \p place.
 Patch patch_around(const Trial& whole, const Corners& place, const Trials& trials, double price);
 
-//! \brief The patch after \p move, settled between what is held. Empty when that is no surface, does not settle or has
-//! impermissible defects.
+//! \brief The patch after \p move, settled between what is held. Empty when that changes nothing, is no surface, does
+//! not settle or has impermissible defects.
 std::optional<Patch> changed(const Patch& patch, const Move& move, const Trial& whole, const Trials& trials,
                              double price);
 

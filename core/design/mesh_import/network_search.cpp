@@ -192,7 +192,7 @@ std::optional<Trial> attempt(const Trials& trials, int number)
         return std::nullopt;
     }
     const long work = 6000L * trials.options.elements; // iterations times elements
-    const long local_work = 20000L * trials.options.elements;
+    const long local_work = 60000L * trials.options.elements;
     for (Trial& trial : found) {
         polish(trial, trials, stretch_price, work);
     }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/design/mesh_import/join_network.h"
+#include "core/design/mesh_import/network.h"
 #include "core/design/mesh_import/network_ease.h"
 #include "core/design/mesh_import/network_replace.h"
 #include "core/model/triangulation.h"
@@ -101,6 +102,16 @@ TEST(NetworkPatch, AFlipMovesTheMiddleAndNotTheRim)
     EXPECT_EQ(flipped->plan.origin, patch.plan.origin);
 }
 
+TEST(NetworkPatch, AMoveThatCannotBeDoneIsNoChange)
+{
+    const Ball ball;
+    const auto trial = ball.settled();
+    ASSERT_TRUE(trial);
+    const Patch patch = patch_around(*trial, first_element(*trial), *ball.trials, price);
+    EXPECT_TRUE(changed(patch, {Move::Kind::Turn, patch.worst}, *trial, *ball.trials, price));
+    EXPECT_FALSE(changed(patch, {Move::Kind::Flip, {0, 0}}, *trial, *ball.trials, price));
+}
+
 TEST(NetworkPatch, IsNoLargerInALargerNetwork)
 {
     std::vector<std::size_t> sizes;
@@ -149,6 +160,12 @@ TEST(Ease, TakesStretchOutOfANetworkWithAFlaw)
     ease(*flawed, *ball.trials, price, 20'000'000);
     EXPECT_TRUE(can_be_built(*flawed));
     EXPECT_TRUE(has_permissible_defects(flawed->found.surface, ball.element));
+    Surface replayed = network(import_of(flawed->found.surface, "ball")).value();
+    EmbedOptions options;
+    options.start = Start::Edited;
+    const EmbedReport report = embed(replayed, ball.element, options);
+    EXPECT_TRUE(report.converged);
+    EXPECT_NEAR(report.max_stretch, largest(*flawed), 1e-5); // it stays where the file puts it
 }
 
 } // namespace
