@@ -91,25 +91,16 @@ private:
 
 } // namespace
 
-MinimiseResult local_newton(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options)
+MinimiseResult newton_on(const std::vector<bool>& is_free, const EmbeddingTerms& terms, Iterate& iterate,
+                         const MinimiseOptions& options)
 {
-    std::vector<bool> marked = out_of_equilibrium(iterate, 100 * options.tolerance);
-    const auto share = [&] { return double(std::count(marked.begin(), marked.end(), true)) / double(marked.size()); };
-    for (int k = 0; k < rings && share() > 0 && share() < largest_share; ++k) {
-        add_ring(terms, marked);
-    }
-    MinimiseResult result;
-    if (share() == 0 || share() >= largest_share) {
-        return result;
-    }
-    const Patch patch = PatchMaker(terms, marked).make();
+    const Patch patch = PatchMaker(terms, is_free).make();
     VectorXd x(3 * patch.vertices.size());
     for (std::size_t k = 0; k < patch.vertices.size(); ++k) {
         x.segment<3>(3 * k) = iterate.x.segment<3>(3 * patch.vertices[k]);
     }
     Iterate local = iterate_at(patch.terms, x);
     MinimiseOptions local_options = options;
-    local_options.tolerance = options.tolerance / 2;
     if (options.progress) {
         const double elsewhere = iterate.energy - local.energy;
         local_options.progress = [&options, elsewhere](int iteration, const Iterate& now) {
@@ -118,12 +109,28 @@ MinimiseResult local_newton(const EmbeddingTerms& terms, Iterate& iterate, const
             return options.progress(iteration, whole);
         };
     }
-    result = newton(patch.terms, local, local_options);
+    const MinimiseResult result = newton(patch.terms, local, local_options);
     VectorXd moved = iterate.x;
     for (int k = 0; k < patch.terms.free_count; ++k) {
         moved.segment<3>(3 * patch.vertices[k]) = local.x.segment<3>(3 * k);
     }
     iterate = iterate_at(terms, std::move(moved));
+    return result;
+}
+
+MinimiseResult local_newton(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options)
+{
+    std::vector<bool> marked = out_of_equilibrium(iterate, 100 * options.tolerance);
+    const auto share = [&] { return double(std::count(marked.begin(), marked.end(), true)) / double(marked.size()); };
+    for (int k = 0; k < rings && share() > 0 && share() < largest_share; ++k) {
+        add_ring(terms, marked);
+    }
+    if (share() == 0 || share() >= largest_share) {
+        return {};
+    }
+    MinimiseOptions finer = options;
+    finer.tolerance = options.tolerance / 2;
+    MinimiseResult result = newton_on(marked, terms, iterate, finer);
     if (result.reason != StopReason::Cancelled && result.reason != StopReason::IterationLimit) {
         result.reason = iterate.gradient_norm() <= options.tolerance ? StopReason::Converged : StopReason::Stalled;
     }

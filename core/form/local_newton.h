@@ -9,4 +9,8 @@ namespace rhombloom {
 //! then the result is Converged for the whole. Stalled: too much is out of equilibrium, or the edit reaches farther.
 MinimiseResult local_newton(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options);
 
+//! \brief Newton's method on the vertices that \p is_free, all others held.
+MinimiseResult newton_on(const std::vector<bool>& is_free, const EmbeddingTerms& terms, Iterate& iterate,
+                         const MinimiseOptions& options);
+
 } // namespace rhombloom

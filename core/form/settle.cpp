@@ -4,7 +4,10 @@
 #include <functional>
 #include <optional>
 
+#include "core/form/attempt.h"
+#include "core/form/connectivity_start.h"
 #include "core/form/local_newton.h"
+#include "core/form/lower_equilibrium.h"
 #include "core/form/nearby_newton.h"
 #include "core/form/start_shape.h"
 
@@ -15,35 +18,11 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double wild_energy = 20;        // la per spring pair on average: positions that know nothing of the shape
-constexpr double dimple = -0.785;         // radians
-constexpr double loaded_guards = 0.05;    // share of the energy
-constexpr double flattening = 1e-2;       // convex weight that unfolds a shape
-constexpr double same_energy = 1e-9;      // relative
-constexpr double collapsed_length = 0.4;  // share of the rest length
-constexpr double collapsed_corner = 0.2;  // sine of a corner
+constexpr int small_surface = 300;        // vertices; the layouts of such a one take about a second
+constexpr double crease = -0.02;          // radians; a closed surface without one has but one equilibrium
 constexpr double changed_imbalance = 2;   // gradient, where an equilibrium was changed a little
 constexpr double rounded_imbalance = .05; // where its positions were rounded
-
-struct Candidate
-{
-    Iterate iterate;
-    MinimiseResult result;
-};
-
-bool is_better(const Candidate& a, const Candidate& b)
-{
-    const bool a_converged = a.result.reason == StopReason::Converged;
-    const bool b_converged = b.result.reason == StopReason::Converged;
-    return a_converged != b_converged ? a_converged
-                                      : a.iterate.energy < b.iterate.energy - same_energy * std::abs(b.iterate.energy);
-}
-
-bool is_good(const EmbeddingTerms& terms, const Candidate& candidate)
-{
-    return candidate.result.reason == StopReason::Converged &&
-           sharpest_concavity(terms, candidate.iterate.x) > dimple &&
-           embedding_energy(terms, candidate.iterate.x).guard <= loaded_guards * candidate.iterate.energy;
-}
+constexpr double flattening = 1e-2;       // convex weight that unfolds a shape
 
 // The given positions, made usable; nothing is changed on those that are.
 VectorXd usable(const EmbeddingTerms& terms, VectorXd x)
@@ -118,77 +97,32 @@ bool repair(const EmbeddingTerms& terms, const VectorXd& start, const VectorXd& 
     return true;
 }
 
-Candidate descend(const EmbeddingTerms& terms, const VectorXd& x, const MinimiseOptions& options)
-{
-    Candidate candidate{iterate_at(terms, x), {}};
-    const auto go_on = [&](const auto& method) {
-        const int before = candidate.result.iterations;
-        candidate.result = method(terms, candidate.iterate, options);
-        candidate.result.iterations += before;
-    };
-    go_on(local_newton);
-    if (candidate.result.reason == StopReason::Stalled) {
-        go_on(minimise);
-    }
-    return candidate;
-}
-
-// A surface that has settled inside out turns over.
-Candidate attempt(const EmbeddingTerms& terms, const VectorXd& x, const MinimiseOptions& options)
-{
-    Candidate candidate = descend(terms, x, options);
-    VectorXd inverted = candidate.iterate.x;
-    mirror(inverted);
-    if (candidate.result.reason == StopReason::Cancelled ||
-        embedding_energy(terms, inverted).total() >= 0.9 * candidate.iterate.energy) {
-        return candidate;
-    }
-    Candidate turned = descend(terms, inverted, options);
-    turned.result.iterations += candidate.result.iterations;
-    return turned;
-}
-
-bool has_collapsed(const EmbeddingTerms& terms, const VectorXd& x)
-{
-    const auto at = [&](int v) { return Eigen::Vector3d(x.segment<3>(3 * v)); };
-    const bool short_spring = std::any_of(terms.springs.begin(), terms.springs.end(), [&](const SpringPair& pair) {
-        return (at(pair.b) - at(pair.a)).norm() < collapsed_length * std::max(pair.rest[0], pair.rest[1]);
-    });
-    const auto is_thin = [&](const Eigen::Vector3d& edge, const Eigen::Vector3d& side) {
-        return edge.cross(side).norm() < collapsed_corner * edge.norm() * side.norm();
-    };
-    return short_spring || std::any_of(terms.hinges.begin(), terms.hinges.end(), [&](const HingeVertices& h) {
-               const Eigen::Vector3d edge = at(h[1]) - at(h[0]);
-               return is_thin(edge, at(h[2]) - at(h[0])) || is_thin(edge, at(h[3]) - at(h[0]));
-           });
-}
-
 // Where a guard bears load, look for an equilibrium of the energy without it: first among the vertices near it, so that
 // elements that collapse do so at little cost.
-bool stands_without_guards(EmbeddingTerms& terms, Candidate& candidate, const MinimiseOptions& options)
+bool stands_without_guards(EmbeddingTerms& terms, Attempt& state, const MinimiseOptions& options)
 {
     EmbeddingTerms pure = terms;
     remove_guards(pure);
-    Candidate without{iterate_at(pure, candidate.iterate.x), {}};
+    Attempt without{iterate_at(pure, state.iterate.x), {}};
     without.result = local_newton(pure, without.iterate, options);
-    candidate.result.iterations += without.result.iterations;
+    state.result.iterations += without.result.iterations;
     if (without.result.reason == StopReason::Stalled && !has_collapsed(pure, without.iterate.x)) {
         without.result = newton(pure, without.iterate, options);
-        candidate.result.iterations += without.result.iterations;
+        state.result.iterations += without.result.iterations;
     }
     if (without.result.reason != StopReason::Converged || has_collapsed(pure, without.iterate.x)) {
         return false;
     }
-    candidate.iterate = without.iterate;
+    state.iterate = without.iterate;
     terms = std::move(pure);
     return true;
 }
 
 // Does the shape need a guard to be in equilibrium? If not, there is none when this returns.
-bool needs_guards(EmbeddingTerms& terms, Candidate& candidate, const MinimiseOptions& options)
+bool needs_guards(EmbeddingTerms& terms, Attempt& state, const MinimiseOptions& options)
 {
-    return embedding_energy(terms, candidate.iterate.x).guard > 0 &&
-           (candidate.result.reason != StopReason::Converged || !stands_without_guards(terms, candidate, options));
+    return embedding_energy(terms, state.iterate.x).guard > 0 &&
+           (state.result.reason != StopReason::Converged || !stands_without_guards(terms, state, options));
 }
 
 bool has_boundary(const EmbeddingTerms& terms)
@@ -199,11 +133,11 @@ bool has_boundary(const EmbeddingTerms& terms)
 
 // A sheet bends along one diagonal or the other, to either side, and one way so far that it folds. The unfolded sheet
 // and its mirror image bend different ways.
-bool unroll(const EmbeddingTerms& terms, Candidate& best, const MinimiseOptions& options)
+bool unroll(const EmbeddingTerms& terms, Attempt& best, const MinimiseOptions& options)
 {
     VectorXd x = unfolded(terms, best.iterate.x, options);
     for (int side = 0; side < 2; ++side) {
-        Candidate other = attempt(terms, x, options);
+        Attempt other = attempt(terms, x, options);
         best.result.iterations += other.result.iterations;
         if (is_good(terms, other) && embedding_energy(terms, other.iterate.x).guard == 0) {
             other.result.iterations = best.result.iterations;
@@ -213,6 +147,53 @@ bool unroll(const EmbeddingTerms& terms, Candidate& best, const MinimiseOptions&
         mirror(x);
     }
     return false;
+}
+
+// The given positions, smoothed when they are wild.
+VectorXd first_try(const EmbeddingTerms& terms, const VectorXd& x)
+{
+    VectorXd first = usable(terms, x);
+    if (is_wild(terms, first)) {
+        smooth(terms, first, 3);
+        first = usable(terms, first);
+    }
+    return first;
+}
+
+// From the positions, as far as they know anything, and from the connectivity alone: where they know nothing, where
+// that costs little and there may be others, and where they lead to a fold.
+Attempt attempt_disordered(const EmbeddingTerms& terms, const VectorXd& x, const VectorXd& first,
+                           const MinimiseOptions& options)
+{
+    if (has_layouts(terms) && knows_nothing(terms, x)) {
+        return attempt_from_connectivity(terms, options);
+    }
+    Attempt best = attempt(terms, first, options);
+    refill_folds(terms, best, options);
+    const bool creased = is_wild(terms, x) && sharpest_concavity(terms, best.iterate.x) < crease;
+    const bool doubtful = terms.vertex_count <= small_surface && (has_boundary(terms) || creased);
+    if (best.result.reason != StopReason::Cancelled && has_layouts(terms) && (doubtful || !is_good(terms, best))) {
+        keep_better(best, attempt_from_connectivity(terms, options));
+    }
+    return best;
+}
+
+// One repair after the other until the best is good; how many.
+int try_repairs(const EmbeddingTerms& terms, const VectorXd& first, Attempt& best, const MinimiseOptions& options)
+{
+    int restarts = 0;
+    bool cancelled = best.result.reason == StopReason::Cancelled;
+    for (int k = 0; k < first_repairs + layouts(terms) && !cancelled && !is_good(terms, best); ++k) {
+        VectorXd repaired;
+        if (!repair(terms, first, best.iterate.x, k, options, repaired)) {
+            continue;
+        }
+        ++restarts;
+        Attempt next = attempt(terms, repaired, options);
+        cancelled = next.result.reason == StopReason::Cancelled;
+        keep_better(best, std::move(next));
+    }
+    return restarts;
 }
 
 // Out of equilibrium by how much at most, for Newton's method to look nearby: an edited shape was in equilibrium, other
@@ -232,7 +213,7 @@ std::optional<Settled> settle_nearby(EmbeddingTerms& terms, VectorXd& x, const M
     if (begin.gradient_norm() > most_imbalance(terms, options, start) || has_collapsed(pure, x)) {
         return std::nullopt;
     }
-    Candidate candidate{begin, {}};
+    Attempt candidate{begin, {}};
     candidate.result = local_newton(pure, candidate.iterate, options);
     if (candidate.result.reason == StopReason::Stalled) {
         candidate.iterate = begin;
@@ -259,36 +240,20 @@ Settled settle(EmbeddingTerms& terms, VectorXd& x, const MinimiseOptions& option
     if (auto settled = settle_nearby(terms, x, options, start)) {
         return *settled;
     }
-    VectorXd first = usable(terms, x);
-    if (is_wild(terms, first)) {
-        smooth(terms, first, 3);
-        first = usable(terms, first);
-    }
-    const int repairs = start == Start::Edited ? 0 : first_repairs + layouts(terms);
+    const VectorXd first = first_try(terms, x);
+    const bool disordered = start == Start::Unknown && is_disordered(terms, x);
     Settled settled;
-    Candidate best = attempt(terms, first, options);
-    int iterations = best.result.iterations;
-    for (int k = 0; k < repairs && best.result.reason != StopReason::Cancelled && !is_good(terms, best); ++k) {
-        VectorXd repaired;
-        if (!repair(terms, first, best.iterate.x, k, options, repaired)) {
-            continue;
-        }
-        ++settled.restarts;
-        Candidate next = attempt(terms, repaired, options);
-        iterations += next.result.iterations;
-        const bool cancelled = next.result.reason == StopReason::Cancelled;
-        if (is_better(next, best)) {
-            best = std::move(next);
-        }
-        if (cancelled) {
-            break;
-        }
-    }
-    best.result.iterations = iterations;
+    Attempt best = disordered ? attempt_disordered(terms, x, first, options) : attempt(terms, first, options);
+    settled.restarts = start == Start::Unknown ? try_repairs(terms, first, best, options) : 0;
     MinimiseOptions rest = options;
     rest.max_iterations = start == Start::Edited ? few_iterations : options.max_iterations;
     settled.guarded = needs_guards(terms, best, rest);
-    if (settled.guarded && repairs > 0 && has_boundary(terms) && best.result.reason == StopReason::Converged) {
+    if (disordered) {
+        lower_equilibrium(terms, best, options);
+        settled.guarded = settled.guarded && needs_guards(terms, best, rest);
+    }
+    if (settled.guarded && start == Start::Unknown && has_boundary(terms) &&
+        best.result.reason == StopReason::Converged) {
         settled.guarded = !unroll(terms, best, options);
         settled.restarts += 1;
     }

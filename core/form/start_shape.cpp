@@ -46,16 +46,6 @@ Vector3d mean_normal(const EmbeddingTerms& terms, const VectorXd& x)
     return sum;
 }
 
-std::vector<std::vector<int>> spring_neighbours(const EmbeddingTerms& terms)
-{
-    std::vector<std::vector<int>> neighbours(terms.vertex_count);
-    for (const SpringPair& pair : terms.springs) {
-        neighbours[pair.a].push_back(pair.b);
-        neighbours[pair.b].push_back(pair.a);
-    }
-    return neighbours;
-}
-
 // Numbers of the parts that remain when the marked vertices are taken out; -1 for these.
 std::vector<int> parts_without(const std::vector<std::vector<int>>& neighbours, const std::vector<bool>& removed)
 {
@@ -154,7 +144,55 @@ MatrixXd graph_distances(const EmbeddingTerms& terms)
     return distance;
 }
 
+using Layout = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+// Move each vertex to where the others would have it.
+void majorise(const MatrixXd& distance, int passes, Layout& x)
+{
+    const int n = static_cast<int>(x.cols());
+    for (int k = 0; k < passes * n; ++k) {
+        const int i = k % n;
+        Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+        double weights = 0;
+        for (int j = 0; j < n; ++j) {
+            if (distance(j, i) > 0) {
+                const double weight = 1 / (distance(j, i) * distance(j, i));
+                const Eigen::Matrix<double, 6, 1> d = x.col(i) - x.col(j);
+                sum += weight * (x.col(j) + d * (distance(j, i) / std::max(d.norm(), 1e-9)));
+                weights += weight;
+            }
+        }
+        if (weights > 0) {
+            x.col(i) = sum / weights;
+        }
+    }
+}
+
+// From six dimensions to the three in which the vertices spread most.
+void squeeze(const MatrixXd& distance, Layout& x)
+{
+    x.colwise() -= x.rowwise().mean().eval();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> axes(x * x.transpose());
+    x = (axes.eigenvectors().rowwise().reverse().transpose() * x).eval();
+    for (int pass = 0; pass < layout_passes; ++pass) {
+        x.bottomRows<3>() *= 0.95;
+        majorise(distance, 1, x);
+    }
+    x.bottomRows<3>().setZero();
+    majorise(distance, 10, x);
+}
+
 } // namespace
+
+std::vector<std::vector<int>> spring_neighbours(const EmbeddingTerms& terms)
+{
+    std::vector<std::vector<int>> neighbours(terms.vertex_count);
+    for (const SpringPair& pair : terms.springs) {
+        neighbours[pair.a].push_back(pair.b);
+        neighbours[pair.b].push_back(pair.a);
+    }
+    return neighbours;
+}
 
 void rescale(const EmbeddingTerms& terms, VectorXd& x)
 {
@@ -261,27 +299,18 @@ VectorXd distance_layout(const EmbeddingTerms& terms, int variant)
 {
     const int n = terms.vertex_count;
     const MatrixXd distance = graph_distances(terms);
-    const auto weight = [&](int i, int j) { return 1 / (distance(i, j) * distance(i, j)); };
-    Matrix3Xd x = spectral_layout(terms).reshaped(3, n);
+    Layout x = Layout::Zero(6, n);
+    x.topRows<3>() = spectral_layout(terms).reshaped(3, n);
     std::mt19937_64 random(3 + variant);
-    for (double& value : x.reshaped()) {
+    const int dimensions = variant % 2 == 0 ? 6 : 3;
+    for (double& value : x.topRows(dimensions).reshaped()) {
         value += random_unit(random);
     }
-    for (int pass = 0; pass < layout_passes; ++pass) {
-        for (int i = 0; i < n; ++i) {
-            Vector3d sum = Vector3d::Zero();
-            double weights = 0;
-            for (int j = 0; j < n; ++j) {
-                if (distance(i, j) > 0) {
-                    const Vector3d d = x.col(i) - x.col(j);
-                    sum += weight(i, j) * (x.col(j) + d * (distance(i, j) / std::max(d.norm(), 1e-9)));
-                    weights += weight(i, j);
-                }
-            }
-            x.col(i) = sum / weights;
-        }
+    majorise(distance, layout_passes, x);
+    if (dimensions > 3) {
+        squeeze(distance, x);
     }
-    VectorXd out = (x.colwise() - x.rowwise().mean()).reshaped();
+    VectorXd out = (x.topRows<3>().colwise() - x.topRows<3>().rowwise().mean()).reshaped();
     rescale(terms, out);
     if (volume(terms, out) < 0) {
         mirror(out);

@@ -7,6 +7,9 @@ namespace rhombloom {
 //! Repairs of positions that no descent could start from, and of those in which one has got stuck. Positions are three
 //! coordinates per vertex in units of la. Everything here is deterministic.
 
+//! \brief The vertices that each vertex shares a spring with.
+std::vector<std::vector<int>> spring_neighbours(const EmbeddingTerms& terms);
+
 //! \brief Scale about the origin so that the springs have their rest length on average. Not if all vertices coincide.
 void rescale(const EmbeddingTerms& terms, Eigen::VectorXd& x);
 
@@ -31,7 +34,8 @@ Eigen::VectorXd spectral_layout(const EmbeddingTerms& terms);
 
 //! \brief Positions from the connectivity alone: distances as nearly those along the surface as space allows (stress
 //! majorisation, Gansner et al. 2004), oriented so that the volume is positive.
-//! \details Finds the hole of a torus, though not from every beginning: each \p variant begins elsewhere. Takes a time
+//! \details Each \p variant begins elsewhere; every other one in six dimensions, of which three are squeezed out
+//! slowly, so that limbs pass by each other. Finds the hole of a torus, though not from every beginning. Takes a time
 //! and a memory of n^2.
 Eigen::VectorXd distance_layout(const EmbeddingTerms& terms, int variant);
 
