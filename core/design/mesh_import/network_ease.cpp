@@ -18,7 +18,6 @@ constexpr std::size_t most_settled = 8; // changes of one network, those of whic
 constexpr int most_nodes = 12;          // networks of a place that are changed further
 constexpr int depth = 5;                // changes one after another
 constexpr double least_gain = 2e-4;
-constexpr int most_iterations = 60; // of a whole; a change that has a long way to go only does damage
 
 //! A network on the way from the best so far, in equilibrium.
 struct Node
@@ -55,12 +54,20 @@ struct Place
     std::vector<double> seen; //!< energies of all that there were, mm: no two networks have the same
 };
 
+//! Of a whole: in a large one a change that has a long way to go does damage elsewhere, in a small one it may help.
+int most_iterations(int elements)
+{
+    constexpr int least = 60;
+    constexpr int most = 1500;
+    return std::clamp(90000 / elements, least, most);
+}
+
 class Easing
 {
 public:
     Easing(Trial& best, const Trials& trials, double price, long work)
-        : best_(best), trials_{trials.target, trials.element, trials.options, most_iterations}, price_(price),
-          work_(work), edge_(triangle_edge(trials.element) * best.plan.scale),
+        : best_(best), trials_{trials.target, trials.element, trials.options, most_iterations(trials.options.elements)},
+          price_(price), work_(work), edge_(triangle_edge(trials.element) * best.plan.scale),
           crosses_(has_crossings(best.found.surface))
     {
     }
@@ -198,7 +205,7 @@ void Easing::settle_all(std::vector<Change>& changes)
         }
     });
     for (const Change& change : changes) {
-        work_ -= change.result ? change.result->cost : static_cast<long>(best_.ratings.size()) * most_iterations;
+        work_ -= change.result ? change.result->cost : static_cast<long>(best_.ratings.size()) * trials_.max_iterations;
     }
 }
 
