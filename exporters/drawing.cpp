@@ -51,7 +51,7 @@ double area(const Path& path)
     for (std::size_t i = 0; i < segment_count(path); ++i) {
         const Vec2& a = path.vertices[i].point;
         const Vec2& b = segment_end(path, i);
-        sum += 0.5 * (a.x() * b.y() - a.y() * b.x());
+        sum += 0.5 * cross_2d(a, b);
         if (path.vertices[i].bulge != 0) {
             const Arc s = arc(a, b, path.vertices[i].bulge);
             sum += 0.5 * s.radius * s.radius * (s.sweep - std::sin(s.sweep));

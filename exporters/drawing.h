@@ -9,6 +9,12 @@ namespace rhombloom {
 
 using Vec2 = Eigen::Vector2d;
 
+//! \brief a x b, positive when b lies counter-clockwise of a.
+inline double cross_2d(const Vec2& a, const Vec2& b)
+{
+    return a.x() * b.y() - a.y() * b.x();
+}
+
 //! \brief A vertex and the segment that follows it: straight when bulge is 0, else an arc with bulge =
 //! tan(included angle / 4), positive counter-clockwise (as in DXF). Arcs are at most half circles.
 struct PathVertex

@@ -79,20 +79,15 @@ bool flipped(const FigureScene& scene, Face f)
     return scene.surface->data(f).facing == Facing::Back;
 }
 
-double wedge(const Vec2& a, const Vec2& b)
-{
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 //! The depth of an element at a point on the paper, or nothing where the point is outside.
 std::optional<double> depth_at(const FigureScene& scene, Face f, const Vec2& point)
 {
     const Quad q = quad(*scene.surface, f);
     const Polygon p = outline_of(scene, f);
     for (const auto& [b, c] : {std::pair{1, 2}, std::pair{2, 3}}) {
-        const double area = wedge(p[b] - p[0], p[c] - p[0]);
-        const double v = wedge(point - p[0], p[c] - p[0]) / area;
-        const double w = wedge(p[b] - p[0], point - p[0]) / area;
+        const double area = cross_2d(p[b] - p[0], p[c] - p[0]);
+        const double v = cross_2d(point - p[0], p[c] - p[0]) / area;
+        const double w = cross_2d(p[b] - p[0], point - p[0]) / area;
         if (area != 0 && v >= 0 && w >= 0 && v + w <= 1) {
             const auto z = [&](int k) { return depth(scene.camera, scene.surface->point(Vertex(q[k]))); };
             return z(0) + v * (z(b) - z(0)) + w * (z(c) - z(0));
@@ -183,7 +178,7 @@ void add_common_edges(const Polygon& element, const Polygon& part, std::vector<P
     for (std::size_t k = 0; k < element.size(); ++k) {
         const Vec2 start = element[k];
         const Vec2 along = (element[(k + 1) % element.size()] - start).normalized();
-        const auto on_edge = [&](const Vec2& x) { return std::abs(wedge(along, x - start)) < same; };
+        const auto on_edge = [&](const Vec2& x) { return std::abs(cross_2d(along, x - start)) < same; };
         for (std::size_t i = 0; i < part.size(); ++i) {
             const Vec2& a = part[i];
             const Vec2& b = part[(i + 1) % part.size()];
@@ -219,7 +214,7 @@ double polygon_area(const Polygon& polygon)
 {
     double sum = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-        sum += wedge(polygon[i], polygon[(i + 1) % polygon.size()]) / 2;
+        sum += cross_2d(polygon[i], polygon[(i + 1) % polygon.size()]) / 2;
     }
     return std::abs(sum);
 }
@@ -242,8 +237,8 @@ namespace {
 //! An element bent so much that one half hides part of the other's: they reach beyond the outline of its corners.
 void draw_folded_halves(PdfCanvas& canvas, const Polygon& p, unsigned tint, const Line& line)
 {
-    const double one = wedge(p[1] - p[0], p[2] - p[0]);
-    const double other = wedge(p[2] - p[0], p[3] - p[0]);
+    const double one = cross_2d(p[1] - p[0], p[2] - p[0]);
+    const double other = cross_2d(p[2] - p[0], p[3] - p[0]);
     if (one * other < 0) {
         canvas.fill_and_outline({p[0], p[1], p[2]}, tint, line);
         canvas.fill_and_outline({p[0], p[2], p[3]}, tint, line);

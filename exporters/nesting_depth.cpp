@@ -18,7 +18,7 @@ DepthField::DepthField(const Polygon& polygon, double rim) : rim_(rim)
         const Vec2 way = polygon[(i + 1) % n] - polygon[i];
         const Vec2 before = polygon[i] - polygon[(i + n - 1) % n];
         const Vec2 along = way.normalized();
-        edges_.push_back({polygon[i], along, Vec2(along.y(), -along.x()), way.norm(), cross(before, way) >= 0});
+        edges_.push_back({polygon[i], along, Vec2(along.y(), -along.x()), way.norm(), cross_2d(before, way) >= 0});
     }
     const Box box = box_of(polygon);
     const Vec2 size = box.max - box.min + Vec2::Constant(2 * rim);

@@ -48,7 +48,7 @@ std::vector<Corner> corners_of(const Pattern& pattern, double angle, const Polyg
 //! All copies whose corners lie in x in [left, left + range] and in y within one range of \p bottom.
 void collect(const std::vector<Corner>& corners, const Lattice& l, const Vec2& origin, std::vector<Candidate>& out)
 {
-    const double det = cross(l.v1, l.v2);
+    const double det = cross_2d(l.v1, l.v2);
     for (std::size_t m = 0; m < corners.size(); ++m) {
         const Corner& c = corners[m];
         if (c.range.x() < -rounding || c.range.y() < -rounding) {
@@ -58,7 +58,7 @@ void collect(const std::vector<Corner>& corners, const Lattice& l, const Vec2& o
         const Vec2 high = origin - c.at + c.range + Vec2(rounding, rounding);
         Vec2 min = Vec2::Constant(1e300), max = Vec2::Constant(-1e300);
         for (const Vec2& p : {low, high, Vec2(low.x(), high.y()), Vec2(high.x(), low.y())}) {
-            const Vec2 ij(cross(p, l.v2) / det, cross(l.v1, p) / det);
+            const Vec2 ij(cross_2d(p, l.v2) / det, cross_2d(l.v1, p) / det);
             min = min.cwiseMin(ij);
             max = max.cwiseMax(ij);
         }

@@ -16,7 +16,7 @@ void add_special_points(const Vec2& a, const Vec2& b, const Polygon& directions,
         points.push_back(a + foot * ab);
     }
     for (const Vec2& d : directions) {
-        const double t = cross(d, a) / cross(ab, d);
+        const double t = cross_2d(d, a) / cross_2d(ab, d);
         const Vec2 p = a + t * ab;
         if (t > 0 && t < 1 && p.dot(d) > 0) {
             points.push_back(p);
@@ -75,12 +75,12 @@ double boundary_length(const NoFit& region)
 //! Where edge a-b crosses edge c-d, both ends included.
 void add_crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d, Polygon& points)
 {
-    const double between = cross(b - a, d - c);
+    const double between = cross_2d(b - a, d - c);
     if (between == 0) {
         return;
     }
-    const double t = cross(c - a, d - c) / between;
-    const double u = cross(c - a, b - a) / between;
+    const double t = cross_2d(c - a, d - c) / between;
+    const double u = cross_2d(c - a, b - a) / between;
     if (t >= 0 && t <= 1 && u >= 0 && u <= 1) {
         points.push_back(a + t * (b - a));
     }

@@ -12,7 +12,7 @@ struct Lattice
     Vec2 v1 = Vec2::Zero();
     Vec2 v2 = Vec2::Zero();
 
-    double cell() const { return std::abs(cross(v1, v2)); }
+    double cell() const { return std::abs(cross_2d(v1, v2)); }
 };
 
 //! \brief The same lattice spanned by its two shortest vectors (Gauss's reduction), v1 the shorter.

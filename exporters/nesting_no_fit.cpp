@@ -242,7 +242,7 @@ double reach_along(const NoFit& region, const Vec2& direction)
     double reach = 0;
     for (const Polygon& contour : region.contours) {
         for (std::size_t i = 0, j = contour.size() - 1; i < contour.size(); j = i++) {
-            const double a = cross(direction, contour[j]), b = cross(direction, contour[i]);
+            const double a = cross_2d(direction, contour[j]), b = cross_2d(direction, contour[i]);
             if ((a <= 0 && b >= 0) || (a >= 0 && b <= 0)) {
                 const double t = a == b ? 0 : a / (a - b);
                 reach = std::max(reach, direction.dot(contour[j] + t * (contour[i] - contour[j])));

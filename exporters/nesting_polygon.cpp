@@ -20,7 +20,7 @@ std::string text_of(const Vec2& p)
 
 int side_of(const Vec2& a, const Vec2& b, const Vec2& p)
 {
-    const double area = cross(b - a, p - a);
+    const double area = cross_2d(b - a, p - a);
     return (area > 0) - (area < 0);
 }
 
@@ -42,7 +42,7 @@ bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
 //! Edges i and i + 1 share a point by right; they clash only when the second runs back over the first.
 bool runs_back(const Vec2& a, const Vec2& b, const Vec2& c)
 {
-    return cross(b - a, c - b) == 0 && (b - a).dot(c - b) < 0;
+    return cross_2d(b - a, c - b) == 0 && (b - a).dot(c - b) < 0;
 }
 
 bool edges_clash(const Polygon& polygon, std::size_t i, std::size_t j)
@@ -123,7 +123,7 @@ double signed_area(const Polygon& polygon)
 {
     double sum = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-        sum += 0.5 * cross(polygon[i] - polygon[0], polygon[(i + 1) % polygon.size()] - polygon[0]);
+        sum += 0.5 * cross_2d(polygon[i] - polygon[0], polygon[(i + 1) % polygon.size()] - polygon[0]);
     }
     return sum;
 }
@@ -146,7 +146,7 @@ Polygon convex_hull(Polygon points)
     for (int pass = 0; pass < 2; ++pass) {
         const std::size_t start = hull.size();
         for (const Vec2& p : points) {
-            while (hull.size() >= start + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) {
+            while (hull.size() >= start + 2 && cross_2d(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) {
                 hull.pop_back();
             }
             hull.push_back(p);
@@ -222,7 +222,7 @@ Polygon inflated(const Polygon& polygon, double radius, double slack)
         const Vec2 in = (polygon[i] - polygon[(i + n - 1) % n]).normalized();
         const Vec2 out = (polygon[(i + 1) % n] - polygon[i]).normalized();
         const Vec2 normal(in.y(), -in.x());
-        const double sweep = std::atan2(cross(in, out), in.dot(out));
+        const double sweep = std::atan2(cross_2d(in, out), in.dot(out));
         if (sweep > 0) {
             add_corner(ring, polygon[i], normal, sweep, radius, slack);
         } else {

@@ -32,11 +32,6 @@ struct Orientation
 //! \brief \p polygon in an orientation, counter-clockwise again.
 Polygon oriented(const Polygon& polygon, const Orientation& orientation);
 
-inline double cross(const Vec2& a, const Vec2& b)
-{
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 //! \brief mm2, positive counter-clockwise.
 double signed_area(const Polygon& polygon);
 

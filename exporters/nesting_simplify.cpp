@@ -18,18 +18,18 @@ struct Corner
 double distance_to_line(const Vec2& p, const Vec2& a, const Vec2& b)
 {
     const double length = (b - a).norm();
-    return length > 0 ? std::abs(cross(b - a, p - a)) / length : (p - a).norm();
+    return length > 0 ? std::abs(cross_2d(b - a, p - a)) / length : (p - a).norm();
 }
 
 //! Where the edges before b and after c meet when the edge b-c is dropped; nothing unless both corners are convex.
 std::optional<Vec2> tip_over(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
 {
     const Vec2 in = b - a, out = d - c;
-    const double between = cross(in, out);
-    if (cross(in, c - b) < 0 || cross(c - b, out) < 0 || between <= 1e-9 * in.norm() * out.norm()) {
+    const double between = cross_2d(in, out);
+    if (cross_2d(in, c - b) < 0 || cross_2d(c - b, out) < 0 || between <= 1e-9 * in.norm() * out.norm()) {
         return {};
     }
-    return Vec2(b + in * (cross(c - b, out) / between));
+    return Vec2(b + in * (cross_2d(c - b, out) / between));
 }
 
 //! Drop vertex \p i if it is reflex and the new edge strays no further than \p tolerance.
@@ -38,7 +38,7 @@ bool cut_across(std::vector<Corner>& ring, std::size_t i, double tolerance)
     const std::size_t n = ring.size();
     Corner& before = ring[(i + n - 1) % n];
     const Corner& after = ring[(i + 1) % n];
-    if (cross(ring[i].p - before.p, after.p - ring[i].p) > 0) {
+    if (cross_2d(ring[i].p - before.p, after.p - ring[i].p) > 0) {
         return false;
     }
     const double strayed = std::max(before.strayed, ring[i].strayed) + distance_to_line(ring[i].p, before.p, after.p);

@@ -129,7 +129,7 @@ double free_run(const NoFit& region, const Vec2& from, const Vec2& way)
     double run = 1e300;
     for (const Polygon& contour : region.contours) {
         for (std::size_t i = 0, j = contour.size() - 1; i < contour.size(); j = i++) {
-            const double a = cross(way, contour[j] - from), b = cross(way, contour[i] - from);
+            const double a = cross_2d(way, contour[j] - from), b = cross_2d(way, contour[i] - from);
             if (a > 0 && b <= 0) { // the edge of a counter-clockwise contour is crossed inwards
                 const double t = way.dot(contour[j] + a / (a - b) * (contour[i] - contour[j]) - from);
                 run = t > -1e-6 ? std::min(run, t) : run;

@@ -9,11 +9,6 @@ namespace rhombloom {
 
 namespace {
 
-double cross(const Vec2& a, const Vec2& b)
-{
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 Vec2 turned(const Vec2& v, double angle)
 {
     const double c = std::cos(angle);
@@ -25,11 +20,11 @@ std::vector<Vec2> line_line(const Segment& s, const Segment& t)
 {
     const Vec2 u = s.b - s.a;
     const Vec2 v = t.b - t.a;
-    const double det = cross(u, v);
+    const double det = cross_2d(u, v);
     if (std::abs(det) < 1e-12 * u.norm() * v.norm()) {
         return {};
     }
-    return {s.a + u * (cross(t.a - s.a, v) / det)};
+    return {s.a + u * (cross_2d(t.a - s.a, v) / det)};
 }
 
 std::vector<Vec2> line_circle(const Segment& line, const Circle& c)
@@ -65,7 +60,7 @@ std::vector<Vec2> circle_circle(const Circle& c, const Circle& e)
 //! The angle from one radius to another in the sense of \p sense, as close as possible to \p near.
 double angle_between(const Vec2& from, const Vec2& to, double near)
 {
-    const double angle = std::atan2(cross(from, to), from.dot(to));
+    const double angle = std::atan2(cross_2d(from, to), from.dot(to));
     return angle + two_pi * std::round((near - angle) / two_pi);
 }
 
@@ -213,7 +208,9 @@ std::vector<std::pair<double, double>> crossings(const Segment& s, const Segment
 
 std::array<Segment, 2> biarc(const Heading& from, const Heading& to)
 {
-    const auto bulge = [](const Vec2& t, const Vec2& chord) { return cross(t, chord) / (chord.norm() + t.dot(chord)); };
+    const auto bulge = [](const Vec2& t, const Vec2& chord) {
+        return cross_2d(t, chord) / (chord.norm() + t.dot(chord));
+    };
     const Vec2 v = to.point - from.point;
     const Vec2 both = from.tangent + to.tangent;
     const double x = v.dot(both);
