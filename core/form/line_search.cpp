@@ -50,13 +50,19 @@ Iterate iterate_at(const EmbeddingTerms& terms, VectorXd x)
 double line_search(const EmbeddingTerms& terms, Iterate& iterate, const VectorXd& direction,
                    const LineSearchOptions& options)
 {
+    return line_search([&](VectorXd x) { return iterate_at(terms, std::move(x)); }, iterate, direction, options);
+}
+
+double line_search(const std::function<Iterate(VectorXd)>& at, Iterate& iterate, const VectorXd& direction,
+                   const LineSearchOptions& options)
+{
     const double slope = direction.dot(iterate.gradient);
     if (!(slope < 0)) {
         return 0;
     }
     double scale = std::min(options.first_step, options.max_move / largest_move(direction));
     for (int k = 0; k < max_trials; ++k) {
-        Iterate next = iterate_at(terms, iterate.x + scale * direction);
+        Iterate next = at(iterate.x + scale * direction);
         if (is_acceptable(iterate, next, scale, slope)) {
             iterate = std::move(next);
             return scale;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "core/form/embedding_energy.h"
 
 namespace rhombloom {
@@ -27,5 +29,9 @@ struct LineSearchOptions
 //! \return the share of \p direction gone; 0, and nothing moved, when the energy does not decrease.
 double line_search(const EmbeddingTerms& terms, Iterate& iterate, const Eigen::VectorXd& direction,
                    const LineSearchOptions& options);
+
+//! \brief The same for another energy, known by its value and gradient at any positions.
+double line_search(const std::function<Iterate(Eigen::VectorXd)>& at, Iterate& iterate,
+                   const Eigen::VectorXd& direction, const LineSearchOptions& options);
 
 } // namespace rhombloom

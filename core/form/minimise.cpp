@@ -4,9 +4,6 @@
 
 namespace rhombloom {
 
-namespace {
-
-// For a method that begins after \p done iterations.
 MinimiseOptions rest_of(const MinimiseOptions& options, int done)
 {
     MinimiseOptions rest = options;
@@ -18,8 +15,6 @@ MinimiseOptions rest_of(const MinimiseOptions& options, int done)
     }
     return rest;
 }
-
-} // namespace
 
 bool should_stop(const Iterate& iterate, const MinimiseOptions& options, MinimiseResult& result)
 {

@@ -56,6 +56,9 @@ MinimiseResult quasi_newton(const EmbeddingTerms& terms, Iterate& iterate, const
 MinimiseResult interior_descent(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& iterate,
                                 const MinimiseOptions& options);
 
+//! \brief For a method that begins after \p done iterations.
+MinimiseOptions rest_of(const MinimiseOptions& options, int done);
+
 //! \brief What all methods ask before each iteration: a reason to stop, if there is one.
 bool should_stop(const Iterate& iterate, const MinimiseOptions& options, MinimiseResult& result);
 

@@ -35,11 +35,24 @@ NewtonSystem::NewtonSystem(const EmbeddingTerms& terms, int threads)
     }
 }
 
-bool NewtonSystem::factor(const Iterate& iterate, const HessianOptions& options)
+void NewtonSystem::assemble(const Iterate& iterate, const HessianOptions& options)
 {
     HessianOptions shared = options;
     shared.threads = threads_;
     embedding_hessian(terms_, pattern_, iterate.x, shared, hessian_);
+}
+
+VectorXd NewtonSystem::product(const VectorXd& vector) const
+{
+    VectorXd result = VectorXd::Zero(vector.size()), free;
+    multiply(hessian_, vector.head(3 * terms_.free_count), free);
+    result.head(3 * terms_.free_count) = free;
+    return result;
+}
+
+bool NewtonSystem::factor(const Iterate& iterate, const HessianOptions& options)
+{
+    assemble(iterate, options);
     return solver_.factor(hessian_, shift_ * mean_diagonal(hessian_));
 }
 

@@ -20,6 +20,12 @@ public:
     //! \brief Factor the Hessian as \p options say; false when it is not positive definite.
     bool factor(const Iterate& iterate, const HessianOptions& options);
 
+    //! \brief Assemble the Hessian as \p options say, for product(); what was factored stays.
+    void assemble(const Iterate& iterate, const HessianOptions& options);
+
+    //! \brief The Hessian that was assembled last times \p vector.
+    Eigen::VectorXd product(const Eigen::VectorXd& vector) const;
+
     //! \brief Solve with what was factored last.
     Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const;
 
