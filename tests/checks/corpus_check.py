@@ -124,7 +124,15 @@ def shown_on_a_terminal(arguments):
         print(f"not looked at: what a terminal shows ({error})")
         return None
     code = subprocess.run([program, *arguments], stdout=theirs, stderr=theirs).returncode
-    return code, os.read(ours, 10000).decode()
+    os.close(theirs)
+    shown = b""
+    try:
+        while piece := os.read(ours, 10000):  # what is shown arrives in pieces
+            shown += piece
+    except OSError:  # the end
+        pass
+    os.close(ours)
+    return code, shown.decode()
 
 
 # On a terminal, progress is gone before the result is printed beside it.
