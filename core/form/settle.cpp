@@ -178,12 +178,17 @@ Attempt attempt_disordered(const EmbeddingTerms& terms, const VectorXd& x, const
     return best;
 }
 
-// One repair after the other until the best is good; how many.
-int try_repairs(const EmbeddingTerms& terms, const VectorXd& first, Attempt& best, const MinimiseOptions& options)
+// One repair after the other until the best is good; how many. From disorder it is not good while a guard bears load.
+int try_repairs(const EmbeddingTerms& terms, const VectorXd& first, bool disordered, Attempt& best,
+                const MinimiseOptions& options)
 {
+    const auto is_done = [&] {
+        return best.result.reason == StopReason::Cancelled ||
+               (is_good(terms, best) && !(disordered && embedding_energy(terms, best.iterate.x).guard > 0));
+    };
     int restarts = 0;
-    bool cancelled = best.result.reason == StopReason::Cancelled;
-    for (int k = 0; k < first_repairs + layouts(terms) && !cancelled && !is_good(terms, best); ++k) {
+    bool cancelled = false;
+    for (int k = 0; k < first_repairs + layouts(terms) && !cancelled && !is_done(); ++k) {
         VectorXd repaired;
         if (!repair(terms, first, best.iterate.x, k, options, repaired)) {
             continue;
@@ -244,7 +249,7 @@ Settled settle(EmbeddingTerms& terms, VectorXd& x, const MinimiseOptions& option
     const bool disordered = start == Start::Unknown && is_disordered(terms, x);
     Settled settled;
     Attempt best = disordered ? attempt_disordered(terms, x, first, options) : attempt(terms, first, options);
-    settled.restarts = start == Start::Unknown ? try_repairs(terms, first, best, options) : 0;
+    settled.restarts = start == Start::Unknown ? try_repairs(terms, first, disordered, best, options) : 0;
     MinimiseOptions rest = options;
     rest.max_iterations = start == Start::Edited ? few_iterations : options.max_iterations;
     settled.guarded = needs_guards(terms, best, rest);
