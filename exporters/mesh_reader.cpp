@@ -1,10 +1,10 @@
 #include "exporters/mesh_reader.h"
 
-#include <algorithm>
 #include <charconv>
 #include <map>
 
 #include "exporters/mesh_formats.h"
+#include "exporters/save.h"
 
 namespace rhombloom {
 
@@ -13,15 +13,6 @@ namespace {
 bool is_space(char c)
 {
     return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
-}
-
-std::string ending(const std::string& name)
-{
-    const auto dot = name.rfind('.');
-    std::string result = dot == std::string::npos ? "" : name.substr(dot + 1);
-    std::transform(result.begin(), result.end(), result.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return result;
 }
 
 } // namespace
@@ -109,9 +100,9 @@ Expected<MeshFile> read_mesh(const std::string& name, const std::string& bytes)
 {
     static const std::map<std::string, Expected<MeshFile> (*)(std::string_view)> readers = {
         {"obj", read_obj}, {"off", read_off}, {"stl", read_stl}, {"ply", read_ply}, {"glb", read_glb}};
-    const auto reader = readers.find(ending(name));
+    const auto reader = readers.find(file_ending(name));
     if (reader == readers.end()) {
-        return refuse("the ending of the file's name is \"" + ending(name).substr(0, 20) +
+        return refuse("the ending of the file's name is \"" + file_ending(name).substr(0, 20) +
                       "\": expected .obj, .ply, .stl, .off or .glb");
     }
     if (bytes.empty()) {

@@ -10,6 +10,7 @@
 
 #include "core/text.h"
 #include "exporters/outline_pieces.h"
+#include "exporters/save.h"
 
 namespace rhombloom {
 
@@ -266,12 +267,11 @@ Expected<Path> joined(std::vector<Path> paths)
 Expected<ReadOutline> read_outline(const std::string& file_name, const std::string& bytes)
 {
     using namespace reading;
-    std::string ending = file_name.substr(std::min(file_name.find_last_of('.'), file_name.size()));
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    const auto parse = ending == ".svg"    ? svg_pieces
-                       : ending == ".dxf"  ? dxf_pieces
-                       : ending == ".json" ? json_pieces
-                                           : nullptr;
+    const std::string ending = file_ending(file_name);
+    const auto parse = ending == "svg"    ? svg_pieces
+                       : ending == "dxf"  ? dxf_pieces
+                       : ending == "json" ? json_pieces
+                                          : nullptr;
     const auto named = [&](const Error& error) { return Error{file_name + ": " + error.message, error.kind}; };
     if (parse == nullptr) {
         return refuse(file_name + ": expected a file that ends in .svg, .dxf or .json");

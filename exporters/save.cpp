@@ -245,6 +245,15 @@ Expected<void> save_folder(const std::string& folder, const FileSet& files)
     return ok;
 }
 
+std::string file_ending(const std::string& path)
+{
+    std::string ending = fs::path(path).extension().string().erase(0, 1);
+    for (char& c : ending) {
+        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return ending;
+}
+
 Expected<std::string> load_file(const std::string& path, std::size_t max_bytes)
 {
     if (!path_exists(path)) {

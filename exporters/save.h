@@ -19,4 +19,7 @@ Expected<void> save_folder(const std::string& folder, const FileSet& files);
 //! \brief The whole file; the refusal tells a missing file, a folder and an unreadable or oversized file apart.
 Expected<std::string> load_file(const std::string& path, std::size_t max_bytes);
 
+//! \brief "stl" of "a/Cup.STL"; empty when the name has no ending.
+std::string file_ending(const std::string& path);
+
 } // namespace rhombloom

@@ -1,11 +1,11 @@
 #include "exporters/surface_file.h"
 
 #include <cmath>
-#include <filesystem>
 
 #include <nlohmann/json.hpp>
 
 #include "core/text.h"
+#include "exporters/save.h"
 
 namespace rhombloom {
 
@@ -139,17 +139,17 @@ std::string surface_ply(const Surface& surface)
 Expected<std::string> surface_file(const std::string& path, const Surface& surface, const Element& element,
                                    const EmbedReport& embedding)
 {
-    const std::string ending = std::filesystem::path(path).extension().string();
-    if (ending == ".json") {
+    const std::string ending = file_ending(path);
+    if (ending == "json") {
         return surface_json(surface, element, embedding);
     }
-    if (ending == ".obj") {
+    if (ending == "obj") {
         return surface_obj(surface);
     }
-    if (ending == ".off") {
+    if (ending == "off") {
         return surface_off(surface);
     }
-    if (ending == ".ply") {
+    if (ending == "ply") {
         return surface_ply(surface);
     }
     return refuse("\"" + path + "\" has no known ending: expected .json, .obj, .off or .ply");

@@ -1,6 +1,7 @@
 #include "apps/cli/console.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include <unistd.h>
 
@@ -70,6 +71,25 @@ Expected<Replay> replay_design(const std::string& path, const Design& design, Pr
         return tl::make_unexpected(Error{path + ": " + result.error().message, result.error().kind});
     }
     return result;
+}
+
+Expected<void> spare_input(const std::string& input, const std::string& output)
+{
+    std::error_code ignored;
+    if (std::filesystem::equivalent(input, output, ignored)) {
+        return refuse(output + " would replace what was read from " + input + ": give another name");
+    }
+    return {};
+}
+
+Expected<void> spare_input(const std::string& input, const std::string& folder, const FileSet& files)
+{
+    for (const auto& [name, bytes] : files) {
+        if (auto ok = spare_input(input, (std::filesystem::path(folder) / name).string()); !ok) {
+            return ok;
+        }
+    }
+    return {};
 }
 
 Expected<void> print(const std::string& text)

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/design/history.h"
+#include "exporters/save.h"
 
 namespace rhombloom::cli {
 
@@ -30,6 +31,10 @@ Expected<Design> load_design(const std::string& path);
 
 //! \brief Replay with progress; refusals begin with the file's name.
 Expected<Replay> replay_design(const std::string& path, const Design& design, Progress& progress);
+
+//! \brief Refuses an output that is the file which was read.
+Expected<void> spare_input(const std::string& input, const std::string& output);
+Expected<void> spare_input(const std::string& input, const std::string& folder, const FileSet& files);
 
 //! \brief Results go to stdout, after the line of progress is gone; a full disk or closed pipe is the machine's
 //! failure.

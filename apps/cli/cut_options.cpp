@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "apps/cli/usage.h"
+#include "core/text.h"
 
 namespace rhombloom::cli {
 
@@ -22,15 +23,12 @@ Expected<double> parse_share(const std::string& text)
     return share;
 }
 
-Expected<void> apply_length(const char* name, double value, double max, double& target)
+Expected<void> apply_length(const char* name, std::optional<double> value, double max, double& target)
 {
-    if (value == -1) {
-        return {};
+    if (value && !(*value >= 0 && *value <= max)) {
+        return refuse(std::string(name) + " is " + to_text(*value) + " mm: expected 0 to " + to_text(max) + " mm");
     }
-    if (!(value >= 0 && value <= max)) {
-        return refuse(std::string(name) + " must be from 0 to " + std::to_string(static_cast<int>(max)) + " mm");
-    }
-    target = value;
+    target = value.value_or(target);
     return {};
 }
 
@@ -104,7 +102,7 @@ std::shared_ptr<CutArguments> add_cut_options(CLI::App& command)
     add("--spares", a->spares, "extra pieces, e.g. 3%");
     add("--colours", a->colours, "layer colours: lightburn, trotec, k40, ponoko, glowforge, boxes");
     add("--stroke", a->stroke, "width of lines in SVG, mm (default 0.1; 0.01 with the colours of trotec and ponoko)")
-        ->check(CLI::Range(0.001, 2.0))
+        ->check(in_range(0.001, 2))
         ->option_text("MM");
     add("--dxf", a->dxf, "DXF version: r2000 (default) or r12")
         ->check(CLI::IsMember({"r2000", "r12"}))
@@ -113,11 +111,9 @@ std::shared_ptr<CutArguments> add_cut_options(CLI::App& command)
         ->transform(one_of<Grain>({{"any", Grain::Any}, {"half-turn", Grain::HalfTurn}, {"fixed", Grain::Fixed}}))
         ->option_text("NAME");
     add("--price-per-sheet", a->price_per_sheet, "for the cost in kit.json")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(in_range(0, 1e6))
         ->option_text("NUMBER");
-    add("--price-per-minute", a->price_per_minute, "of the machine")
-        ->check(CLI::Range(0.0, 1e6))
-        ->option_text("NUMBER");
+    add("--price-per-minute", a->price_per_minute, "of the machine")->check(in_range(0, 1e6))->option_text("NUMBER");
     command.add_flag("--no-engraving", a->plain, "no numbers and arrows on the pieces")->group("Sheets");
     return a;
 }

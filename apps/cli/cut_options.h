@@ -17,8 +17,8 @@ struct CutArguments
     std::string colours;
     std::string remnant;
     std::string spares;
-    double spacing = -1;
-    double margin = -1;
+    std::optional<double> spacing;
+    std::optional<double> margin;
     std::optional<double> stroke;
     double price_per_sheet = 0;
     double price_per_minute = 0;

@@ -1,5 +1,6 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/console.h"
+#include "apps/cli/usage.h"
 #include "core/text.h"
 #include "exporters/save.h"
 #include "exporters/surface_file.h"
@@ -23,6 +24,9 @@ Expected<int> run_embed(const std::string& design_path, const std::string& outpu
     if (!bytes) {
         return tl::make_unexpected(bytes.error());
     }
+    if (auto ok = spare_input(design_path, output); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
     if (auto ok = save_file(output, *bytes); !ok) {
         return tl::make_unexpected(ok.error());
     }
@@ -43,7 +47,9 @@ void add_embed(CLI::App& app, Run& run)
     auto design = std::make_shared<std::string>();
     auto output = std::make_shared<std::string>();
     command->add_option("DESIGN", *design, "design file")->required();
-    command->add_option("-o,--output", *output, "file to write: .json, .obj, .off or .ply")->required();
+    command->add_option("-o,--output", *output, "file to write: .json, .obj, .off or .ply")
+        ->required()
+        ->check(not_empty());
     command->callback([&run, design, output] { run = [design, output] { return run_embed(*design, *output); }; });
 }
 

@@ -53,6 +53,20 @@ void remove_stale(const std::string& folder, const std::vector<std::string>& old
     }
 }
 
+//! A folder that never held a kit keeps its files.
+Expected<void> spare_foreign(const std::string& folder, const FileSet& files)
+{
+    for (const auto& [name, bytes] : files) {
+        const std::string path = (std::filesystem::path(folder) / name).string();
+        std::error_code ignored;
+        if (std::filesystem::is_regular_file(path, ignored)) {
+            return machine_failure(path + " is not of a kit (there is no kit.json beside it) and would be replaced: " +
+                                   "give another folder");
+        }
+    }
+    return {};
+}
+
 Expected<Kit> make(FabricateOptions& options, Progress& progress)
 {
     if (!options.only.empty()) {
@@ -94,6 +108,13 @@ Expected<int> run_fabricate(FabricateOptions& options)
     }
     constexpr std::size_t max_manifest = 10'000'000;
     const auto old = load_file((std::filesystem::path(options.output) / "kit.json").string(), max_manifest);
+    auto spared = spare_input(options.design, options.output, kit->files);
+    if (spared && !old) {
+        spared = spare_foreign(options.output, kit->files);
+    }
+    if (!spared) {
+        return tl::make_unexpected(spared.error());
+    }
     if (auto ok = save_folder(options.output, kit->files); !ok) {
         return tl::make_unexpected(ok.error());
     }
@@ -112,7 +133,9 @@ void add_fabricate(CLI::App& app, Run& run)
     command->footer("Example: rhombloom fabricate examples/ball-30.json -o kit "
                     "--machine glowforge --kerf 0.2");
     command->add_option("DESIGN", options->design, "design file")->required();
-    command->add_option("-o,--output", options->output, "folder of the kit; made when it is missing")->required();
+    command->add_option("-o,--output", options->output, "folder of the kit; made when it is missing")
+        ->required()
+        ->check(not_empty());
     command->add_option("--only", options->only, "only these parts: cut,booklet,preview,hooks")
         ->delimiter(',')
         ->transform(one_of<KitPart>({{"cut", KitPart::Cut},

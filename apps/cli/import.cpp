@@ -4,6 +4,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/console.h"
+#include "apps/cli/usage.h"
 #include "core/design/design_file.h"
 #include "core/design/mesh_import/mesh_import.h"
 #include "core/design/mesh_import/network.h"
@@ -136,16 +137,38 @@ Expected<ImportedMesh> make(const ImportArguments& arguments, Progress& progress
         progress.show(what);
         return true;
     };
-    const auto file = [&]() -> Expected<MeshFile> {
-        progress.show("reading " + arguments.mesh);
-        const auto bytes = load_file(arguments.mesh, max_bytes);
-        return bytes ? read_mesh(arguments.mesh, *bytes) : Expected<MeshFile>(tl::make_unexpected(bytes.error()));
-    }();
-    if (!file) {
-        return tl::make_unexpected(file.error());
+    progress.show("reading " + arguments.mesh);
+    auto bytes = load_file(arguments.mesh, max_bytes);
+    if (!bytes) {
+        return tl::make_unexpected(bytes.error());
     }
-    options.mm_per_unit = file->metres ? 1000 : 1;
-    return import_mesh(file->mesh, options);
+    const auto file = read_mesh(arguments.mesh, *bytes);
+    bytes->clear();
+    bytes->shrink_to_fit();
+    return file
+        .and_then([&](const MeshFile& read) {
+            options.mm_per_unit = read.metres ? 1000 : 1;
+            return import_mesh(read.mesh, options);
+        })
+        .map_error([&](const Error& error) {
+            return Error{arguments.mesh + ": " + error.message, error.kind};
+        });
+}
+
+//! Told before the long work: a missing folder, and what would replace the mesh or, as the picture would, the design.
+Expected<void> check_output(const ImportArguments& arguments)
+{
+    const std::string picture = picture_path(arguments.output);
+    const std::filesystem::path folder = std::filesystem::path(arguments.output).parent_path();
+    std::error_code ignored;
+    if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
+        return machine_failure("cannot write " + arguments.output + ": there is no folder " + folder.string());
+    }
+    if (picture == arguments.output) {
+        return refuse("the picture goes to " + picture + ": give the design another ending, .json is usual");
+    }
+    auto ok = spare_input(arguments.mesh, arguments.output);
+    return ok ? spare_input(arguments.mesh, picture) : ok;
 }
 
 //! The target and the elements side by side.
@@ -185,10 +208,13 @@ Expected<void> store(ImportedMesh& made, const std::string& output, const std::s
 
 Expected<int> run_import(const ImportArguments& arguments)
 {
+    if (auto ok = check_output(arguments); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
     Progress progress;
     auto made = make(arguments, progress);
     if (!made) {
-        return tl::make_unexpected(Error{arguments.mesh + ": " + made.error().message, made.error().kind});
+        return tl::make_unexpected(made.error());
     }
     if (auto ok = store(*made, arguments.output, std::filesystem::path(arguments.mesh).stem().string()); !ok) {
         return tl::make_unexpected(ok.error());
@@ -210,11 +236,12 @@ void add_import(CLI::App& app, Run& run)
         "beside the design, and a picture of both (vase.png).");
     auto arguments = std::make_shared<ImportArguments>();
     command->add_option("MESH", arguments->mesh, "file with the target")->required();
-    command->add_option("-o,--output", arguments->output, "design file to write")->required();
+    command->add_option("-o,--output", arguments->output, "design file to write")->required()->check(not_empty());
     command->add_option("--elements", arguments->size.elements, "how many elements (600)");
-    command->add_option("--la", arguments->size.la, "short side of the element, mm (80)")->check(CLI::PositiveNumber);
-    command->add_option("--height", arguments->size.height, "of the target, along z, mm")->check(CLI::PositiveNumber);
-    command->add_option("--lb", arguments->lb, "long side, mm (1.1 la)")->check(CLI::PositiveNumber);
+    command->add_option("--la", arguments->size.la, "short side of the element, mm (80)");
+    command->add_option("--height", arguments->size.height, "of the target, along z, mm (1 to 100000)")
+        ->check(in_range(1, 1e5));
+    command->add_option("--lb", arguments->lb, "long side, mm (1.1 la)");
     command->add_option("--alpha", arguments->alpha_deg, "acute angle, degrees (63.435)");
     command->add_option("--thickness", arguments->thickness, "of the sheet, mm (0.5)");
     command->add_flag("--json", arguments->json, "machine-readable report");

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -46,6 +47,13 @@ void add_version(CLI::App& app)
     }
 }
 
+//! Is it a number, though perhaps not a whole one or one of usual size?
+bool is_number(const std::string& text)
+{
+    double value = 0;
+    return std::from_chars(text.data(), text.data() + text.size(), value).ptr == text.data() + text.size();
+}
+
 //! CLI11's sentence; it says "Could not convert: --count = 1.5" of what is no number, or no whole one.
 std::string sentence_of(const CLI::ParseError& error)
 {
@@ -53,8 +61,8 @@ std::string sentence_of(const CLI::ParseError& error)
     if (!text.starts_with(start)) {
         return text;
     }
-    const bool fraction = text.find_last_of("0123456789.") + 1 == text.size();
-    return text.substr(start.size()) + ": expected a " + (fraction ? "whole number of usual size" : "number");
+    const std::string value = text.substr(text.rfind(' ') + 1);
+    return text.substr(start.size()) + ": expected a " + (is_number(value) ? "whole number of usual size" : "number");
 }
 
 int run_program(int argc, char** argv)

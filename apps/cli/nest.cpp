@@ -64,7 +64,11 @@ Expected<int> run_nest(const NestCommand& command)
         return tl::make_unexpected(nesting.error());
     }
     progress.show("writing " + std::to_string(nesting->sheets.size()) + " sheets");
-    if (auto ok = save_folder(command.output, nesting_files(*outline, *options, *nesting)); !ok) {
+    const FileSet files = nesting_files(*outline, *options, *nesting);
+    if (auto ok = spare_input(command.outline, command.output, files); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    if (auto ok = save_folder(command.output, files); !ok) {
         return tl::make_unexpected(ok.error());
     }
     // Its size first: a wrong unit shows there.
@@ -84,7 +88,7 @@ void add_nest(CLI::App& app, Run& run)
     auto given = std::make_shared<NestCommand>();
     command->add_option("OUTLINE", given->outline, "one closed contour: .svg, .dxf or .json {\"outline\": [[x,y],...]}")
         ->required();
-    command->add_option("-o,--output", given->output, "folder to write")->required();
+    command->add_option("-o,--output", given->output, "folder to write")->required()->check(not_empty());
     command->add_option("--sheet", given->sheet, "sheet size WxH in mm, or WxHin")->capture_default_str();
     command->add_option("--count", given->options.count, "number of copies")->required();
     command->add_option("--spacing", given->options.spacing, "mm between finished edges")->capture_default_str();

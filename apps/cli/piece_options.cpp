@@ -1,5 +1,6 @@
 #include "apps/cli/piece_options.h"
 
+#include "apps/cli/usage.h"
 #include "core/text.h"
 
 namespace rhombloom::cli {
@@ -25,7 +26,7 @@ std::shared_ptr<PieceOptions> add_piece_options(CLI::App& command)
     command
         .add_option("--max-stretch", options->max_stretch,
                     "of an element, for a sheet that gives more than the usual 1 % (percent, 0.1 to 5)")
-        ->check(CLI::Range(0.1, 5.0))
+        ->check(in_range(0.1, 5))
         ->option_text("FLOAT");
     for (std::size_t i = 0; i < table.size(); ++i) {
         if (is_option(table[i])) {

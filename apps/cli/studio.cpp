@@ -7,6 +7,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/console.h"
+#include "apps/cli/usage.h"
 #include "apps/studio/server/guard.h"
 #include "apps/studio/server/server.h"
 
@@ -83,7 +84,9 @@ void add_studio(CLI::App& app, Run& run)
         "Example: rhombloom studio bunny.json\nThe page is served to this machine only. Changes are saved to "
         "the design file as you make them.");
     command->add_option("DESIGN", options->design, "design file; a new one when it is missing");
-    command->add_option("--port", options->port, "default: any free one")->check(CLI::Range(0, 65535));
+    command->add_option("--port", options->port, "default: any free one")
+        ->check(in_range(0, 65535))
+        ->option_text("INT");
     command->add_flag("--no-browser", options->no_browser, "only print the address");
     command->add_option("--pages", options->pages, "folder of the built page")->group("");
     command->callback([&run, options] { run = [options] { return run_studio(*options); }; });

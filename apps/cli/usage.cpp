@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/text.h"
+
 namespace rhombloom::cli {
 
 namespace {
@@ -81,6 +83,21 @@ std::string unknown_command(const CLI::App& app, const std::string& name)
 }
 
 } // namespace
+
+CLI::Validator in_range(double min, double max)
+{
+    const auto check = [min, max](std::string& input) -> std::string {
+        double value = 0;
+        const bool inside = CLI::detail::lexical_cast(input, value) && value >= min && value <= max;
+        return inside ? "" : input.substr(0, 40) + " is not from " + to_text(min) + " to " + to_text(max);
+    };
+    return CLI::Validator(check, "");
+}
+
+CLI::Validator not_empty()
+{
+    return CLI::Validator([](std::string& input) { return input.empty() ? "the name is empty" : std::string(); }, "");
+}
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known)
 {

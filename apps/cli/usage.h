@@ -36,6 +36,12 @@ CLI::Validator one_of(std::vector<std::pair<std::string, T>> values)
     return CLI::Validator(convert, "");
 }
 
+//! \brief Refuses what lies outside of \p min and \p max (both allowed), and what is no number at all (nan).
+CLI::Validator in_range(double min, double max);
+
+//! \brief Refuses the empty name that an unset variable of the shell leaves.
+CLI::Validator not_empty();
+
 //! \brief The command among \p arguments: "rhombloom nest", or "rhombloom" when there is none.
 std::string called(const CLI::App& app, std::span<const std::string> arguments);
 

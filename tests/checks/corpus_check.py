@@ -84,6 +84,30 @@ if (work / "file").read_text() != "keep me":
     problems.append("fabricate destroyed the file in its way")
 expect("unwritable target", run(["fabricate", good, "-o", "/proc/kit"]), 3, "/proc/kit")
 
+# What was there before: neither the input nor the files of a folder that never held a kit are replaced.
+home = work / "home"
+home.mkdir()
+for name in ["design.json", "plan.json"]:
+    shutil.copy(good, home / name)
+(home / "outline.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" '
+                                  'viewBox="0 0 60 40"><path d="M0 0H60V40Z" fill="none"/></svg>')
+shutil.copy(home / "outline.svg", home / "sheet-01.svg")
+(home / "mesh.off").write_text("OFF\n0 0 0\n")
+(home / "mesh.png").write_text("a photograph")
+before = {p: p.read_bytes() for p in home.iterdir()}
+for name, arguments, code, words in [
+        ("embed onto its design", ["embed", home / "design.json", "-o", home / "./design.json"], 1, "would replace"),
+        ("kit onto its design", ["fabricate", home / "plan.json", "-o", home, "--only", "booklet"], 1, "would replace"),
+        ("kit among other files", ["fabricate", good, "-o", home, "--only", "booklet"], 3, "no kit.json beside it"),
+        ("nest onto its outline", ["nest", home / "sheet-01.svg", "-o", home, "--count", "3"], 1, "would replace"),
+        ("import onto its mesh", ["import", home / "mesh.off", "-o", home / "mesh.off"], 1, "would replace"),
+        ("import named as its picture", ["import", home / "mesh.off", "-o", home / "mesh.png"], 1, "another ending"),
+        ("import into a missing folder", ["import", home / "mesh.off", "-o", home / "none/x.json"], 3, "no folder"),
+        ("studio in a missing folder", ["studio", home / "none/x.json", "--no-browser"], 1, "no folder")]:
+    expect(name, run(arguments), code, words)
+    if {p: p.read_bytes() for p in home.iterdir()} != before:
+        problems.append(f"{name}: the folder is not as it was")
+
 # A disk that is full after a few kilobytes: nothing new, and the old kit untouched.
 out = work / "full"
 expect("full disk", run(["fabricate", good, "-o", out], limit_bytes=2000), 3, "cannot write")
@@ -105,8 +129,18 @@ for arguments, words in [(["fabrcate", good], "did you mean fabricate?"), (["--v
                          (["nest", good], "rhombloom nest --help"),
                          (["nest", good, "-o", work / "out", "--count", "many"], "--count = many: expected a number"),
                          (["nest", good, "-o", work / "out", "--count", "9", "--grain", "1"], "any, half-turn, fixed"),
+                         (["fabricate", good, "-o", ""], "--output: the name is empty"),
+                         (["fabricate", good, "-o", work / "out", "--kerf", "0,2"], "--kerf = 0,2: expected a number "),
+                         (["check", good, "--max-stretch", "nan"], "nan is not from 0.1 to 5"),
+                         (["fabricate", good, "-o", work / "out", "--stroke", "0"], "0 is not from 0.001 to 2"),
                          (["fabricate", good, "-o", work / "out", "--only", "cut,hoks"], "cut, booklet, preview, hooks")]:
     expect(f"usage {arguments}", run(arguments), 2, words)
+expect("a spacing of -1", run(["fabricate", good, "-o", work / "out", "--spacing", "-1"]), 1, "--spacing is -1 mm")
+expect("a length of 0", run(["import", good, "-o", work / "x.json", "--la", "0"]), 1, "la_mm is 0 mm: expected")
+told = run(["import", "none.obj", "-o", work / "x.json"])
+expect("mesh that is missing", told, 1, "none.obj does not exist")
+if told.stderr.count(b"none.obj") != 1:
+    problems.append(f"the missing mesh is named twice: {told.stderr}")
 for command in ["fabricate", "check", "embed", "shapes", "plan", "nest", "import", "studio"]:
     told = run([command, "--version"]), run([command, "--help"])
     checked += 1

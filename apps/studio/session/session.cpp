@@ -62,6 +62,9 @@ Expected<std::unique_ptr<Session>> Session::open(const std::string& path)
             return refuse(path + ": " + read.error().message);
         }
         design = std::move(*read);
+    } else if (const auto folder = std::filesystem::path(path).parent_path();
+               !folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
+        return refuse("there is no folder " + folder.string() + " for the design: make it first");
     }
     std::unique_ptr<Session> session(new Session(path, design));
     const auto scene = session->cache_.scene(design);
