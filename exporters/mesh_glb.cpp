@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -20,6 +21,12 @@ struct Glb
     std::string_view binary;
 };
 
+//! Bytes (signed and not), shorts (signed and not), 32 bit integers, floats.
+std::size_t component_bytes(int component)
+{
+    return component == 5126 || component == 5125 ? 4 : component == 5123 || component == 5122 ? 2 : 1;
+}
+
 //! One accessor: where its values stand in the binary chunk.
 struct Accessor
 {
@@ -27,6 +34,7 @@ struct Accessor
     std::size_t stride = 0;
     std::size_t count = 0;
     int component = 0; //!< glTF's number of the component type
+    bool normalised = false;
 };
 
 std::uint32_t word(std::string_view bytes, std::size_t at, int size = 4)
@@ -88,14 +96,13 @@ Expected<Accessor> accessor(const Glb& glb, const json& index, std::size_t compo
     const json& view = description.is_object() && description.contains("bufferView")
                            ? entry(glb.document, "bufferViews", description["bufferView"])
                            : json();
-    if (!view.is_object() || size_at(view, "buffer", 0) != 0) {
+    if (!view.is_object() || size_at(view, "buffer", 0) != 0 || description.contains("sparse")) {
         return refuse("a mesh's data are not in the file itself or compressed: expected a plain GLB");
     }
     Accessor result;
     result.component = static_cast<int>(size_at(description, "componentType", 0));
-    const std::size_t width = result.component == 5126 || result.component == 5125 ? 4
-                              : result.component == 5123                           ? 2
-                                                                                   : 1;
+    const std::size_t width = component_bytes(result.component);
+    result.normalised = description.value("normalized", json(false)) == true;
     result.count = size_at(description, "count", 0);
     result.stride = size_at(view, "byteStride", width * components);
     const std::size_t begin = size_at(view, "byteOffset", 0);
@@ -113,21 +120,42 @@ Expected<Accessor> accessor(const Glb& glb, const json& index, std::size_t compo
     return result;
 }
 
+//! A component as a number; integers as KHR_mesh_quantization has them, from -1 to 1 where they are normalised.
+double component_value(std::string_view bytes, const Accessor& data)
+{
+    const auto raw = word(bytes, 0, static_cast<int>(bytes.size()));
+    const auto scaled = [&](double value, double largest) {
+        return data.normalised ? std::max(-1.0, value / largest) : value;
+    };
+    switch (data.component) {
+    case 5120:
+        return scaled(static_cast<std::int8_t>(raw), 127);
+    case 5121:
+        return scaled(raw, 255);
+    case 5122:
+        return scaled(static_cast<std::int16_t>(raw), 32767);
+    case 5123:
+        return scaled(raw, 65535);
+    default:
+        return std::bit_cast<float>(raw);
+    }
+}
+
 Expected<std::vector<Vec3>> positions(const Glb& glb, const json& index)
 {
     const auto data = accessor(glb, index, 3);
     if (!data) {
         return tl::make_unexpected(data.error());
     }
-    if (data->component != 5126) {
-        return refuse("the points of a mesh are not floats: expected a plain GLB");
+    if (data->component != 5126 && (data->component < 5120 || data->component > 5123)) {
+        return refuse("the points of a mesh are neither floats nor short integers: expected a plain GLB");
     }
+    const std::size_t width = component_bytes(data->component);
     std::vector<Vec3> result;
     for (std::size_t i = 0; i < data->count; ++i) {
-        const std::string_view bytes(data->first + i * data->stride, 12);
         Vec3 p;
         for (int k = 0; k < 3; ++k) {
-            p[k] = std::bit_cast<float>(word(bytes, 4 * k));
+            p[k] = component_value({data->first + i * data->stride + k * width, width}, *data);
         }
         result.push_back(p);
     }
@@ -147,7 +175,7 @@ Expected<std::vector<int>> indices(const Glb& glb, const json& primitive, std::s
     if (!data) {
         return tl::make_unexpected(data.error());
     }
-    const int width = data->component == 5125 ? 4 : data->component == 5123 ? 2 : 1;
+    const int width = static_cast<int>(component_bytes(data->component));
     for (std::size_t i = 0; i < data->count; ++i) {
         const std::uint32_t index = word(std::string_view(data->first + i * data->stride, width), 0, width);
         if (index >= points) {
@@ -243,6 +271,9 @@ Expected<void> add_node(const Glb& glb, const json& index, const Eigen::Affine3d
     }
     if (depth > deepest || mesh.points.size() > most_points) {
         return refuse("the scene's nodes contain each other or repeat their meshes without end");
+    }
+    if (node.contains("extensions") && node["extensions"].contains("EXT_mesh_gpu_instancing")) {
+        return refuse("a mesh is repeated by EXT_mesh_gpu_instancing: expected a plain GLB");
     }
     const Eigen::Affine3d pose = parent * node_pose(node);
     if (node.contains("mesh")) {

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <utility>
+
 #include "exporters/mesh_formats.h"
 
 namespace rhombloom {
@@ -40,12 +43,37 @@ Expected<void> read_face(TextScanner& scanner, TriangleMesh& mesh)
     return {};
 }
 
+//! A point or face whose line ends in a backslash goes on in the next line, as some programs break long faces. The line
+//! ends that were taken out follow, so that lines keep their numbers.
+std::string joined_lines(std::string_view bytes)
+{
+    std::string text;
+    text.reserve(bytes.size());
+    std::size_t owed = 0;
+    while (!bytes.empty()) {
+        const std::size_t end = std::min(bytes.find('\n'), bytes.size());
+        std::string_view line = bytes.substr(0, end);
+        bytes.remove_prefix(std::min(end + 1, bytes.size()));
+        line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
+        if (line.ends_with('\\') && (owed > 0 || line.starts_with('v') || line.starts_with('f'))) {
+            line.remove_suffix(1);
+            text.append(line).push_back(' ');
+            ++owed;
+        } else {
+            text.append(line).append(1 + std::exchange(owed, 0), '\n');
+        }
+    }
+    return text;
+}
+
 } // namespace
 
 Expected<MeshFile> read_obj(std::string_view bytes)
 {
     MeshFile file;
-    TextScanner scanner(bytes);
+    const bool broken = bytes.find("\\\n") != bytes.npos || bytes.find("\\\r\n") != bytes.npos;
+    const std::string joined = broken ? joined_lines(bytes) : "";
+    TextScanner scanner(broken ? joined : bytes);
     while (scanner.next_line()) {
         const auto keyword = scanner.word();
         if (keyword == "v") {

@@ -47,6 +47,15 @@ Expected<MeshFile> read_binary(std::string_view bytes, std::size_t count)
     return file;
 }
 
+std::string lower_case(std::string_view word)
+{
+    std::string result(word.substr(0, 20));
+    for (char& c : result) {
+        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return result;
+}
+
 Expected<MeshFile> read_text(std::string_view bytes)
 {
     MeshFile file;
@@ -54,7 +63,7 @@ Expected<MeshFile> read_text(std::string_view bytes)
     std::array<Vec3, 3> corners;
     int known = 0;
     while (scanner.next_line()) {
-        const auto keyword = scanner.word();
+        const std::string keyword = lower_case(scanner.word());
         if (keyword == "facet" || keyword == "endfacet") {
             known = 0;
         }
@@ -78,7 +87,8 @@ Expected<MeshFile> read_text(std::string_view bytes)
 
 Expected<MeshFile> read_stl(std::string_view bytes)
 {
-    const bool says_solid = bytes.substr(0, 5) == "solid";
+    // Some programs indent the word or write it in capitals; some begin a binary file with it.
+    const bool says_solid = lower_case(TextScanner(bytes.substr(0, header_bytes)).any_word()) == "solid";
     if (bytes.size() >= header_bytes) {
         const std::size_t count = little_endian(bytes.data() + 80);
         const std::size_t announced = header_bytes + count * facet_bytes;
@@ -93,7 +103,10 @@ Expected<MeshFile> read_stl(std::string_view bytes)
     if (!says_solid) {
         return refuse("the file is no STL: it neither begins with \"solid\" nor has the 84 bytes of a binary header");
     }
-    return read_text(bytes);
+    auto text = read_text(bytes);
+    const std::size_t count = bytes.size() < header_bytes ? 0 : little_endian(bytes.data() + 80);
+    const bool binary = text && text->mesh.triangles.empty() && bytes.size() >= header_bytes + count * facet_bytes;
+    return binary ? read_binary(bytes, count) : text;
 }
 
 } // namespace rhombloom
