@@ -135,8 +135,9 @@ void draw_contents(PdfCanvas& canvas, const BookletSources& sources, double y)
         const std::string line = std::to_string(c + 1) + "  " + chapters[c].title + ": " +
                                  plural(chapters[c].count, "step") + ", page " + std::to_string(chapters[c].page);
         y += c == 0 ? 20 : leading;
-        canvas.link(chapter_destination(static_cast<int>(c)), line, Vec2(page_margin, y),
-                    {std::min(11.0, 0.8 * leading), 0x004080, Align::Left, 0});
+        canvas.link(
+            chapter_destination(static_cast<int>(c)), line, Vec2(page_margin, y),
+            {canvas.fitting_size(line, text_width(sources), std::min(11.0, 0.8 * leading)), 0x004080, Align::Left, 0});
     }
 }
 
@@ -171,7 +172,7 @@ void draw_flat_piece(PdfCanvas& canvas, const BookletSources& sources, Facing fa
 
 void draw_how_to_read(PdfCanvas& canvas, const BookletSources& sources)
 {
-    draw_heading(canvas, "How to read this booklet");
+    draw_heading(canvas, sources, "How to read this booklet");
     double y = page_margin + 66;
     for (const Sample& sample : samples) {
         canvas.figure(sample.words, [&] { canvas.shifted(Vec2(page_margin + 34, y), [&] { sample.draw(canvas); }); });
@@ -185,7 +186,7 @@ void draw_how_to_read(PdfCanvas& canvas, const BookletSources& sources)
 
 void draw_parts(PdfCanvas& canvas, const BookletSources& sources, const BookletOptions& options)
 {
-    draw_heading(canvas, "Parts and tools");
+    draw_heading(canvas, sources, "Parts and tools");
     const Scorecard& score = sources.plan.scorecard;
     const auto final_count = static_cast<int>(sources.replay.surface.n_faces());
     double y = page_margin + 66;

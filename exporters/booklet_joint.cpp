@@ -204,7 +204,7 @@ void draw_joint(PdfCanvas& canvas, const BookletSources& sources)
          Over::Hooked,
          false},
         {"Not like this: with the long side over the hooks it slips out again.", {}, Over::Wrong, false}};
-    draw_heading(canvas, "How one joint is hooked");
+    draw_heading(canvas, sources, "How one joint is hooked");
     const PaperSize& paper = sources.layout.paper;
     const double gap = 14;
     const Vec2 size((paper.width - 2 * page_margin - gap) / 2, (paper.height - 2 * page_margin - 50 - 2 * gap) / 3);

@@ -137,7 +137,7 @@ void draw_openings(PdfCanvas& canvas, const BookletSources& sources, const Camer
 void draw_last_page(PdfCanvas& canvas, const BookletSources& sources)
 {
     const PaperSize& paper = sources.layout.paper;
-    draw_heading(canvas, "Finished");
+    draw_heading(canvas, sources, "Finished");
     if (sources.plan.steps.empty()) {
         return;
     }

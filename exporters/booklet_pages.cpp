@@ -19,10 +19,11 @@ std::string duration(double minutes)
                         : "about " + to_fixed(std::round(rounded / 30.0) / 2, 1) + " hours";
 }
 
-void draw_heading(PdfCanvas& canvas, const std::string& text)
+void draw_heading(PdfCanvas& canvas, const BookletSources& sources, const std::string& text)
 {
+    const double size = canvas.fitting_size(text, sources.layout.paper.width - 2 * page_margin, 24);
     canvas.tagged("H1", [&] {
-        canvas.text(text, Vec2(page_margin, page_margin + 24), {24, 0x000000, Align::Left, 0});
+        canvas.text(text, Vec2(page_margin, page_margin + 24), {size, 0x000000, Align::Left, 0});
     });
 }
 
@@ -30,6 +31,18 @@ namespace {
 
 constexpr int portrait_view = 1; // a little from the side, a little from above
 constexpr int most_hooked = 300; // elements of a model that is drawn with its hooks
+
+//! As large as leaves the picture its room.
+void draw_title(PdfCanvas& canvas, const std::string& title, double width)
+{
+    constexpr double room = 90, leading = 7.0 / 6;
+    double size = 36;
+    while (size > 12 && static_cast<double>(canvas.lines(title, width, size).size()) * leading * size > room) {
+        size -= 2;
+    }
+    canvas.tagged("H1",
+                  [&] { canvas.paragraph(title, Vec2(page_margin, page_margin + 40), width, {size}, leading * size); });
+}
 
 double text_width(const BookletSources& s)
 {
@@ -87,8 +100,7 @@ void draw_cover(PdfCanvas& canvas, const BookletSources& sources, const std::str
 {
     const PaperSize& paper = sources.layout.paper;
     const Scorecard& score = sources.plan.scorecard;
-    canvas.tagged("H1",
-                  [&] { canvas.paragraph(title, Vec2(page_margin, page_margin + 40), text_width(sources), {36}, 42); });
+    draw_title(canvas, title, text_width(sources));
     canvas.figure("The finished model: " + title + ".", [&] {
         draw_model(canvas, sources, Vec2(paper.width / 2, paper.height * 0.5),
                    Vec2(text_width(sources) / 2, paper.height * 0.32), portrait_view);
@@ -107,7 +119,7 @@ void draw_chapter(PdfCanvas& canvas, const BookletSources& sources, int chapter)
     const PaperSize& paper = sources.layout.paper;
     canvas.destination(chapter_destination(chapter), 0);
     canvas.bookmark(0, c.title, 0);
-    draw_heading(canvas, std::to_string(chapter + 1) + "  " + c.title);
+    draw_heading(canvas, sources, std::to_string(chapter + 1) + "  " + c.title);
     canvas.tagged("P", [&] {
         canvas.text("Steps " + std::to_string(c.first + 1) + " to " + std::to_string(c.first + c.count),
                     Vec2(page_margin, page_margin + 46), {12, 0x404040, Align::Left, 0});
@@ -146,7 +158,8 @@ void draw_page_frame(PdfCanvas& canvas, const BookletSources& sources, int chapt
     const double left = page_margin;
     const double width = text_width(sources) - 60;
     canvas.tagged("P", [&] {
-        canvas.text(sources.layout.chapters[chapter].title, Vec2(page_margin, page_margin + 14), {14});
+        const std::string& title = sources.layout.chapters[chapter].title;
+        canvas.text(title, Vec2(page_margin, page_margin + 14), {canvas.fitting_size(title, text_width(sources), 14)});
         canvas.text(std::to_string(page), Vec2(paper.width - page_margin, y), {10, 0x202020, Align::Right, 0});
     });
     const auto bar = [&](double from, double to, unsigned rgb) {

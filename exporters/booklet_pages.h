@@ -14,7 +14,7 @@ void draw_joint(PdfCanvas& canvas, const BookletSources& sources);
 void draw_chapter(PdfCanvas& canvas, const BookletSources& sources, int chapter);
 void draw_last_page(PdfCanvas& canvas, const BookletSources& sources);
 
-void draw_heading(PdfCanvas& canvas, const std::string& text);
+void draw_heading(PdfCanvas& canvas, const BookletSources& sources, const std::string& text);
 
 //! \brief "about 30 minutes", "about 2.5 hours".
 std::string duration(double minutes);

@@ -157,26 +157,62 @@ void PdfCanvas::text(const std::string& utf8, const Vec2& at, const TextStyle& s
     s.out() += ")Tj\nET\n";
 }
 
+double PdfCanvas::fitting_size(const std::string& utf8, double width, double size) const
+{
+    constexpr double smallest = 6;
+    const double needed = text_width(utf8, size);
+    return needed <= width ? size : std::max(smallest, size * width / needed);
+}
+
+std::string PdfCanvas::fitting_start(const std::string& word, double width, double size) const
+{
+    const auto character_end = [&](std::size_t i) {
+        do {
+            ++i;
+        } while (i < word.size() && (static_cast<unsigned char>(word[i]) & 0xC0) == 0x80);
+        return i;
+    };
+    std::size_t end = character_end(0);
+    while (end < word.size() && text_width(word.substr(0, character_end(end)), size) <= width) {
+        end = character_end(end);
+    }
+    return word.substr(0, end);
+}
+
+std::vector<std::string> PdfCanvas::lines(const std::string& utf8, double width, double size) const
+{
+    std::vector<std::string> result(1);
+    for (std::size_t i = 0; i < utf8.size();) {
+        const std::size_t end = std::min(utf8.find(' ', i), utf8.size());
+        std::string word = utf8.substr(i, end - i);
+        i = end + 1;
+        const std::string longer = result.back().empty() ? word : result.back() + " " + word;
+        if (text_width(longer, size) <= width) {
+            result.back() = longer;
+            continue;
+        }
+        if (!result.back().empty()) {
+            result.emplace_back();
+        }
+        while (text_width(word, size) > width) {
+            result.back() = fitting_start(word, width, size);
+            word.erase(0, result.back().size());
+            result.emplace_back();
+        }
+        result.back() = word;
+    }
+    return result;
+}
+
 double PdfCanvas::paragraph(const std::string& utf8, const Vec2& at, double width, const TextStyle& style,
                             double leading)
 {
     double y = at.y();
-    std::string line;
-    for (std::size_t i = 0; i < utf8.size();) {
-        const std::size_t end = std::min(utf8.find(' ', i), utf8.size());
-        const std::string word = utf8.substr(i, end - i);
-        const std::string longer = line.empty() ? word : line + " " + word;
-        if (!line.empty() && text_width(longer, style.size) > width) {
-            text(line, Vec2(at.x(), y), style);
-            y += leading;
-            line = word;
-        } else {
-            line = longer;
-        }
-        i = end + 1;
+    for (const std::string& line : lines(utf8, width, style.size)) {
+        text(line, Vec2(at.x(), y), style);
+        y += leading;
     }
-    text(line, Vec2(at.x(), y), style);
-    return y + leading;
+    return y;
 }
 
 void PdfCanvas::place(const std::shared_ptr<const PdfGroup>& group, const Vec2& at)

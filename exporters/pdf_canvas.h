@@ -69,7 +69,11 @@ public:
 
     void text(const std::string& utf8, const Vec2& at, const TextStyle& style);
     double text_width(const std::string& utf8, double size) const;
-    //! \brief Broken at spaces to \p width; returns the y of the line after the last one.
+    //! \brief The largest size up to \p size, but not under 6, at which \p utf8 is no wider than \p width.
+    double fitting_size(const std::string& utf8, double width, double size) const;
+    //! \brief \p utf8 broken to \p width: at spaces, and within a word that is wider by itself.
+    std::vector<std::string> lines(const std::string& utf8, double width, double size) const;
+    //! \brief Text in lines; returns the y of the line after the last one.
     double paragraph(const std::string& utf8, const Vec2& at, double width, const TextStyle& style, double leading);
 
     //! \brief Draw a group here.
@@ -90,6 +94,9 @@ public:
     PdfPage take();
 
 private:
+    //! As many characters as fit, at least one.
+    std::string fitting_start(const std::string& word, double width, double size) const;
+
     struct State;
     std::unique_ptr<State> state_;
 };
