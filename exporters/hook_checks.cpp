@@ -187,6 +187,12 @@ Strains strains(const HookParameters& p)
             p.thickness * rest.slope / (2 * engagement(p))};
 }
 
+//! The finger length that takes the strain down by \p excess, in tenths of a millimetre: strain falls as 1/engagement.
+double bearing_finger_length(const HookParameters& p, double excess)
+{
+    return std::ceil(10 * (p.finger_length + engagement(p) * (excess - 1))) / 10;
+}
+
 HookCheck strain(const HookParameters& p, const HookCheckOptions& options)
 {
     const Strains s = strains(p);
@@ -201,7 +207,8 @@ HookCheck strain(const HookParameters& p, const HookCheckOptions& options)
                       percent(100 * s.inserted) + " while an end is inserted (it bears " +
                       percent(100 * options.strain_limit) + "), and by " + percent(100 * s.finger) +
                       " in the fingers (" + percent(100 * options.finger_strain_limit) + ")",
-                  side_ok ? "make the finger length larger, lb shorter or the sheet thinner"
+                  side_ok ? "make the finger length larger, lb shorter or the sheet thinner; a finger length of " +
+                                mm(bearing_finger_length(p, s.finger / options.finger_strain_limit)) + " would bear it"
                           : "make lb shorter or the sheet thinner"});
 }
 

@@ -143,6 +143,17 @@ TEST(HookChecks, ABrokenParameterFailsItsOwnCheckAndSaysWhatToChange)
     }
 }
 
+TEST(HookChecks, TheFingerLengthThatC10NamesIsTheLeastThatBears)
+{
+    const Element thick{.la = 81.1, .lb = 99.2, .alpha = radians(59.2), .thickness = 0.57};
+    const std::string sentence = checked(with({}, thick), "C10").sentence;
+    const std::string words = "a finger length of ";
+    ASSERT_NE(sentence.find(words), std::string::npos) << sentence;
+    const double length = std::stod(sentence.substr(sentence.find(words) + words.size()));
+    EXPECT_TRUE(checked(with({{"finger_length", length}}, thick), "C10").ok);
+    EXPECT_FALSE(checked(with({{"finger_length", length - 0.1}}, thick), "C10").ok);
+}
+
 TEST(HookChecks, AThroatWithoutPlayFailsC3)
 {
     HookParameters p = hook_parameters(Element{});
