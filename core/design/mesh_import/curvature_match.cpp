@@ -2,95 +2,70 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
-#include <Eigen/Cholesky>
-
-#include "core/design/mesh_import/remesh_mesh.h"
+#include "core/design/mesh_import/metric_misfit.h"
 
 namespace rhombloom {
 
 namespace {
 
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using VertexHandle = EditMesh::VertexHandle;
 using EdgeHandle = EditMesh::EdgeHandle;
 
 constexpr double quantum = pi / 3; // curvature of one triangle more or less
 
+//! Curvature that is gathered at a point of the target.
+struct Site
+{
+    Vec3 point = Vec3::Zero();
+    double curvature = 0;
+};
+
+//! The target's curvature at points a fraction of an edge apart: the target itself is finer than need be.
+std::vector<Site> curvature_sites(const TriangleMesh& target, double edge)
+{
+    constexpr double cells_per_edge = 3;
+    const std::vector<double> curvature = point_curvature(target);
+    struct Cell
+    {
+        Site sum;
+        int count = 0;
+    };
+    std::map<std::array<long, 3>, Cell> cells;
+    for (std::size_t i = 0; i < curvature.size(); ++i) {
+        const Vec3 p = target.points[i] * (cells_per_edge / edge);
+        Cell& cell = cells[{std::lround(p.x()), std::lround(p.y()), std::lround(p.z())}];
+        cell.sum.point += target.points[i];
+        cell.sum.curvature += curvature[i];
+        ++cell.count;
+    }
+    std::vector<Site> result;
+    for (const auto& [key, cell] : cells) {
+        result.push_back({cell.sum.point / cell.count, cell.sum.curvature});
+    }
+    return result;
+}
+
 //! The target's curvature, gathered at the corners of the nearest triangles.
-VectorXd target_curvature(EditMesh& mesh, const MeshTree& target, const std::vector<double>& curvature)
+VectorXd gathered_curvature(EditMesh& mesh, const std::vector<Site>& sites)
 {
     VectorXd result = VectorXd::Zero(static_cast<int>(mesh.n_vertices()));
     const MeshTree tree(triangle_mesh(mesh));
-    for (std::size_t i = 0; i < curvature.size(); ++i) {
-        const Vec3& p = target.mesh().points[i];
-        const Triangle& t = tree.mesh().triangles[tree.nearest(p).triangle];
+    for (const Site& site : sites) {
+        const Triangle& t = tree.mesh().triangles[tree.nearest(site.point).triangle];
         const auto nearer = [&](int a, int b) {
-            return (tree.mesh().points[a] - p).squaredNorm() < (tree.mesh().points[b] - p).squaredNorm();
+            return (tree.mesh().points[a] - site.point).squaredNorm() <
+                   (tree.mesh().points[b] - site.point).squaredNorm();
         };
-        result[*std::min_element(t.begin(), t.end(), nearer)] += curvature[i];
+        result[*std::min_element(t.begin(), t.end(), nearer)] += site.curvature;
     }
     return result;
-}
-
-//! The square of: inverse Laplacian for equilateral triangles, then smoothing over the length of an edge. Shorter waves
-//! of the metric's misfit buckle away and cost hardly any distance.
-MatrixXd squared_inverse(const EditMesh& mesh)
-{
-    const int n = static_cast<int>(mesh.n_vertices());
-    const double weight = 1 / std::sqrt(3.0);
-    MatrixXd laplacian = MatrixXd::Constant(n, n, 1.0 / n);
-    for (const auto e : mesh.edges()) {
-        const int a = mesh.to_vertex_handle(mesh.halfedge_handle(e, 0)).idx();
-        const int b = mesh.to_vertex_handle(mesh.halfedge_handle(e, 1)).idx();
-        laplacian(a, a) += weight;
-        laplacian(b, b) += weight;
-        laplacian(a, b) -= weight;
-        laplacian(b, a) -= weight;
-    }
-    const MatrixXd identity = MatrixXd::Identity(n, n);
-    MatrixXd inverse = laplacian.llt().solve(identity);
-    inverse.array() -= 1.0 / n;
-    const MatrixXd smoothed = (identity + laplacian).llt().solve(inverse);
-    return smoothed.transpose() * smoothed;
-}
-
-struct Misfit
-{
-    MatrixXd square;   //!< squared inverse Laplacian
-    VectorXd residual; //!< target's curvature minus ours
-    VectorXd pull;     //!< square * residual
-};
-
-struct Change
-{
-    std::array<int, 4> vertex{};
-    std::array<double, 4> amount{}; //!< added to the residual
-};
-
-double misfit_change(const Misfit& misfit, const Change& change)
-{
-    double result = 0;
-    for (int i = 0; i < 4; ++i) {
-        result += 2 * change.amount[i] * misfit.pull[change.vertex[i]];
-        for (int j = 0; j < 4; ++j) {
-            result += change.amount[i] * change.amount[j] * misfit.square(change.vertex[i], change.vertex[j]);
-        }
-    }
-    return result;
-}
-
-void apply(const Change& change, Misfit& misfit)
-{
-    for (int i = 0; i < 4; ++i) {
-        misfit.residual[change.vertex[i]] += change.amount[i];
-        misfit.pull += change.amount[i] * misfit.square.col(change.vertex[i]);
-    }
 }
 
 //! What a flip of \p e does to the residual: its ends lose a triangle (curvature grows), the other two gain one.
-Change flip_change(const EditMesh& mesh, EdgeHandle e)
+CurvatureChange flip_change(const EditMesh& mesh, EdgeHandle e)
 {
     const auto h = mesh.halfedge_handle(e, 0);
     const auto [c, d] = opposite_vertices(mesh, e);
@@ -107,13 +82,37 @@ double price(int degree, int max_degree)
     return off * off * (std::abs(off) > 1 ? 2 : 1);
 }
 
-double price_change(const EditMesh& mesh, const Change& change, int max_degree)
+double degree_price_change(const EditMesh& mesh, const CurvatureChange& change, int max_degree)
 {
     double result = 0;
     for (int i = 0; i < 4; ++i) {
         const int degree = static_cast<int>(mesh.valence(VertexHandle(change.vertex[i])));
         const int step = change.amount[i] < 0 ? -1 : 1;
         result += price(degree + step, max_degree) - price(degree, max_degree);
+    }
+    return result;
+}
+
+//! How many pairs of vertices of degree 7 and more, one of the four at least among them, are neighbours (counted twice)
+//! or face each other across an edge.
+double crowd(const EditMesh& mesh, const std::array<int, 4>& four)
+{
+    const auto is_high = [&](VertexHandle v) { return mesh.valence(v) >= 7; };
+    double result = 0;
+    for (const int i : four) {
+        const VertexHandle v(i);
+        if (!is_high(v)) {
+            continue;
+        }
+        const auto count = [&](VertexHandle w) {
+            const bool twice = std::find(four.begin(), four.end(), w.idx()) != four.end();
+            return is_high(w) ? (twice ? 0.5 : 1.0) : 0.0;
+        };
+        for (const auto h : mesh.voh_range(v)) {
+            const auto across = mesh.opposite_halfedge_handle(mesh.next_halfedge_handle(h));
+            result += 2 * count(mesh.to_vertex_handle(h));
+            result += count(mesh.to_vertex_handle(mesh.next_halfedge_handle(across)));
+        }
     }
     return result;
 }
@@ -132,30 +131,71 @@ private:
     unsigned long long state_;
 };
 
-//! One sweep over all edges. A flip that has changed the mesh around a vertex keeps others away from it.
-void flip_sweep(EditMesh& mesh, Misfit& misfit, const MatchOptions& options, Random& random)
+class Matching
 {
-    std::vector<bool> changed(mesh.n_vertices(), false);
-    for (const auto e : mesh.edges()) {
-        const double chance = random.next();
-        if (!may_flip(mesh, e)) {
+public:
+    Matching(EditMesh& mesh, const MeshTree& target, const MatchOptions& options)
+        : mesh_(mesh), target_(target), options_(options), temperature_(options.temperature), random_(options.seed),
+          sites_(curvature_sites(target.mesh(), options.edge))
+    {
+    }
+
+    void run();
+
+private:
+    MetricMisfit misfit();
+    void sweep(MetricMisfit& misfit);
+    bool try_flip(EdgeHandle e, const CurvatureChange& change, MetricMisfit& misfit);
+
+    EditMesh& mesh_;
+    const MeshTree& target_;
+    const MatchOptions& options_;
+    double temperature_;
+    Random random_;
+    std::vector<Site> sites_;
+    double least_own_ = 0; //!< own square of a change, the least so far
+};
+
+//! One sweep over all edges. A flip that has changed the mesh around a vertex keeps others away from it.
+void Matching::sweep(MetricMisfit& misfit)
+{
+    std::vector<bool> changed(mesh_.n_vertices(), false);
+    for (const auto e : mesh_.edges()) {
+        if (!may_flip(mesh_, e)) {
             continue;
         }
-        const Change change = flip_change(mesh, e);
-        if (std::any_of(change.vertex.begin(), change.vertex.end(), [&](int v) { return changed[v]; })) {
-            continue;
-        }
-        const double rise =
-            misfit_change(misfit, change) + options.regularity * price_change(mesh, change, options.max_degree);
-        if (rise >= 0 && chance >= std::exp(-rise / std::max(options.temperature, 1e-12))) {
-            continue;
-        }
-        apply(change, misfit);
-        mesh.flip(e);
-        for (const int v : change.vertex) {
-            changed[v] = true;
+        const CurvatureChange change = flip_change(mesh_, e);
+        const auto is_changed = [&](int v) { return changed[v]; };
+        if (std::none_of(change.vertex.begin(), change.vertex.end(), is_changed) && try_flip(e, change, misfit)) {
+            for (const int v : change.vertex) {
+                changed[v] = true;
+            }
         }
     }
+}
+
+bool Matching::try_flip(EdgeHandle e, const CurvatureChange& change, MetricMisfit& misfit)
+{
+    const double allowed = -temperature_ * std::log(std::max(random_.next(), 1e-12));
+    const double prices = options_.regularity * degree_price_change(mesh_, change, options_.max_degree);
+    const double first = prices + misfit.first_order(change) - allowed;
+    const double before = options_.crowding * crowd(mesh_, change.vertex);
+    if (first + least_own_ - before >= 0) {
+        return false;
+    }
+    mesh_.flip(e);
+    const double crowding = options_.crowding * crowd(mesh_, change.vertex) - before;
+    if (first + least_own_ + crowding < 0) {
+        const VectorXd response = misfit.response(change);
+        const double own = MetricMisfit::own_square(change, response);
+        least_own_ = least_own_ == 0 ? 0.9 * own : std::min(least_own_, own);
+        if (first + own + crowding < 0) {
+            misfit.apply(change, response);
+            return true;
+        }
+    }
+    mesh_.flip(e);
+    return false;
 }
 
 } // namespace
@@ -174,18 +214,6 @@ std::vector<double> point_curvature(const TriangleMesh& mesh)
 }
 
 namespace {
-
-Misfit misfit_of(EditMesh& mesh, const MeshTree& target, const std::vector<double>& curvature)
-{
-    Misfit misfit;
-    misfit.square = squared_inverse(mesh);
-    misfit.residual = target_curvature(mesh, target, curvature);
-    for (const auto v : mesh.vertices()) {
-        misfit.residual[v.idx()] -= (6 - static_cast<int>(mesh.valence(v))) * quantum;
-    }
-    misfit.pull = misfit.square * misfit.residual;
-    return misfit;
-}
 
 void relax(EditMesh& mesh, const MeshTree& target, double edge, int sweeps)
 {
@@ -211,6 +239,29 @@ void relax(EditMesh& mesh, const MeshTree& target, double edge, int sweeps)
     }
 }
 
+MetricMisfit Matching::misfit()
+{
+    VectorXd residual = gathered_curvature(mesh_, sites_);
+    for (const auto v : mesh_.vertices()) {
+        residual[v.idx()] -= (6 - static_cast<int>(mesh_.valence(v))) * quantum;
+    }
+    return {mesh_, std::move(residual)};
+}
+
+void Matching::run()
+{
+    constexpr int flip_sweeps = 4;
+    constexpr int relax_sweeps = 6;
+    for (int round = 0; round < options_.rounds; ++round) {
+        MetricMisfit misfit = this->misfit();
+        for (int k = 0; k < flip_sweeps; ++k) {
+            sweep(misfit);
+        }
+        temperature_ *= options_.cooling;
+        relax(mesh_, target_, options_.edge, relax_sweeps);
+    }
+}
+
 } // namespace
 
 void relax_springs(TriangleMesh& triangles, const MeshTree& target, double edge, int sweeps)
@@ -222,20 +273,8 @@ void relax_springs(TriangleMesh& triangles, const MeshTree& target, double edge,
 
 void match_curvature(TriangleMesh& triangles, const MeshTree& target, const MatchOptions& options)
 {
-    constexpr int flip_sweeps = 4;
-    constexpr int relax_sweeps = 6;
     EditMesh mesh = edit_mesh(triangles);
-    const std::vector<double> curvature = point_curvature(target.mesh());
-    Random random(options.seed);
-    MatchOptions now = options;
-    for (int round = 0; round < options.rounds; ++round) {
-        Misfit misfit = misfit_of(mesh, target, curvature);
-        for (int sweep = 0; sweep < flip_sweeps; ++sweep) {
-            flip_sweep(mesh, misfit, now, random);
-        }
-        now.temperature *= options.cooling;
-        relax(mesh, target, options.edge, relax_sweeps);
-    }
+    Matching(mesh, target, options).run();
     triangles = triangle_mesh(mesh);
 }
 
