@@ -17,13 +17,14 @@ constexpr int strip_count(int rows)
 //! are no fused operations), so all machines return the same bytes.
 struct DenseKernels
 {
-    //! \brief Cholesky factor of the first \p columns columns of a front, in its first \p strips strips: at least those
-    //! with the pivot rows; only the lower triangle counts. False when a pivot is not positive. \p inverse, unless null,
-    //! receives the inverses of the factor's diagonal.
-    bool (*factor)(double* panel, int columns, int strips, double* inverse);
+    //! \brief Columns [first, last) of a front's Cholesky factor, those before them being done, in its first \p strips
+    //! strips: at least those with the pivot rows of these columns; only the lower triangle counts. \p first is a
+    //! multiple of eight. False when a pivot is not positive. \p inverse, unless null, receives the inverses of the
+    //! factor's diagonal.
+    bool (*factor)(double* panel, int columns, int first, int last, int strips, double* inverse);
 
-    //! \brief The rest of it, with the same bytes as in one go: the strips [first, last) below the pivot rows.
-    void (*factor_rows)(double* panel, int columns, const double* inverse, int first, int last);
+    //! \brief The rest of these columns, with the same bytes as in one go: the strips [top, bottom) below their pivots.
+    void (*factor_rows)(double* panel, int columns, int first, int last, const double* inverse, int top, int bottom);
 
     //! \brief update -= below * below^T for the strips [first, last) of the update's packed lower triangle, whose strip
     //! s has 8 * (s + 1) columns and begins at 32 * s * (s + 1).

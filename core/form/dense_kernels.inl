@@ -4,6 +4,9 @@
 using Vector = double __attribute__((vector_size(lanes * sizeof(double)), aligned(8), may_alias));
 
 constexpr int parts = strip / lanes; // registers per strip
+constexpr int depth = 128;           // columns of a panel whose products are subtracted at once: a tile's rows stay in the
+                                     // first cache
+constexpr int width = 64;            // columns they are subtracted from: a multiple of a strip, in the second cache
 
 // Tile of `S` strips times `N` columns held in registers.
 template <int S, int N>
@@ -33,10 +36,10 @@ struct Tile
         }
     }
 
-    // entry(:, j) -= sum over k of a(:, k) * b_j(k), in order of k.
-    void subtract_products(const double* const (&a)[S], const double* const (&b)[N], int count)
+    // entry(:, j) -= sum over k in [begin, end) of a(:, k) * b_j(k), in order of k.
+    void subtract_products(const double* const (&a)[S], const double* const (&b)[N], int begin, int end)
     {
-        for (int k = 0; k < count; ++k) {
+        for (int k = begin; k < end; ++k) {
             Vector column[S][parts];
             for (int s = 0; s < S; ++s) {
                 for (int p = 0; p < parts; ++p) {
@@ -97,6 +100,7 @@ bool factor_triangle(double* panel, int columns, int first, double (&triangle)[N
     return true;
 }
 
+// Columns [first, first + N) of a panel: each entry is what it was less the products of its row and its column's pivot row.
 template <int N>
 struct BlockColumn
 {
@@ -112,53 +116,78 @@ struct BlockColumn
         }
     }
 
+    // Products with the columns [begin, end), then what else is to be done with each tile of the strips from s on.
     template <int S, class Finish>
-    void treat(int s, const Finish& finish) const
+    void treat(int s, int begin, int end, const Finish& finish) const
     {
         const double* a[S];
         double* c[S];
         const double* c_const[S];
         for (int i = 0; i < S; ++i) {
-            a[i] = panel + strip * columns * (s + i);
-            c[i] = panel + strip * columns * (s + i) + strip * first;
+            a[i] = panel + static_cast<long>(strip) * columns * (s + i);
+            c[i] = panel + static_cast<long>(strip) * columns * (s + i) + strip * first;
             c_const[i] = c[i];
         }
         Tile<S, N> tile;
         tile.load(c_const);
-        finish(tile, a);
+        tile.subtract_products(a, row, begin, end);
+        finish(tile);
         tile.store(c);
     }
 };
 
-// The strips [first, last) of a block column, whose triangle is done.
-template <int N>
-void finish_block_column(const BlockColumn<N>& block, const double (&triangle)[N][N], const double (&inverse)[N],
-                         int first, int last)
+// Apply action(BlockColumn, s, number of strips) to the strips [first, last).
+template <class Action>
+void for_strips(int first, int last, const Action& action)
 {
     int s = first;
     for (; s + paired <= last; s += paired) {
-        block.template treat<paired>(s, [&](Tile<paired, N>& tile, const double* const(&a)[paired]) {
-            tile.subtract_products(a, block.row, block.first);
-            tile.divide(triangle, inverse);
-        });
+        action.template operator()<paired>(s);
     }
     for (; s < last; ++s) {
-        block.template treat<1>(s, [&](Tile<1, N>& tile, const double* const(&a)[1]) {
-            tile.subtract_products(a, block.row, block.first);
-            tile.divide(triangle, inverse);
-        });
+        action.template operator()<1>(s);
     }
 }
 
+// Apply action<N>(column) to the columns [first, last), up to four at once.
+template <class Action>
+auto for_columns(int first, int last, const Action& action)
+{
+    for (; first + 4 <= last; first += 4) {
+        if (!action.template operator()<4>(first)) {
+            return false;
+        }
+    }
+    switch (last - first) {
+    case 1:
+        return action.template operator()<1>(first);
+    case 2:
+        return action.template operator()<2>(first);
+    case 3:
+        return action.template operator()<3>(first);
+    default:
+        return true;
+    }
+}
+
+// The strips [first, last) of a block column, whose triangle is done; products with the columns from `begin` on.
 template <int N>
-bool factor_block_column(double* panel, int columns, int first, int strips, double* inverses)
+void finish_block_column(const BlockColumn<N>& block, const double (&triangle)[N][N], const double (&inverse)[N],
+                         int begin, int first, int last)
+{
+    for_strips(first, last, [&]<int S>(int s) {
+        block.template treat<S>(s, begin, block.first, [&](Tile<S, N>& tile) { tile.divide(triangle, inverse); });
+    });
+}
+
+template <int N>
+bool factor_block_column(double* panel, int columns, int first, int begin, int strips, double* inverses)
 {
     const BlockColumn<N> block(panel, columns, first);
     const int top = first / strip;
     const int below = (first + N - 1) / strip + 1;
     for (int s = top; s < below; ++s) {
-        block.template treat<1>(
-            s, [&](Tile<1, N>& tile, const double* const(&a)[1]) { tile.subtract_products(a, block.row, first); });
+        block.template treat<1>(s, begin, first, [](Tile<1, N>&) {});
     }
     double triangle[N][N];
     double inverse[N];
@@ -166,37 +195,47 @@ bool factor_block_column(double* panel, int columns, int first, int strips, doub
         return false;
     }
     for (int s = top; s < below; ++s) {
-        block.template treat<1>(s, [&](Tile<1, N>& tile, const double* const(&)[1]) { tile.divide(triangle, inverse); });
+        block.template treat<1>(s, 0, 0, [&](Tile<1, N>& tile) { tile.divide(triangle, inverse); });
     }
-    finish_block_column<N>(block, triangle, inverse, below, strips);
+    finish_block_column<N>(block, triangle, inverse, begin, below, strips);
     for (int j = 0; inverses != nullptr && j < N; ++j) {
         inverses[first + j] = inverse[j];
     }
     return true;
 }
 
-bool factor(double* panel, int columns, int strips, double* inverse)
+// Subtract from the columns [first, last) of the strips [top, bottom) the products with all columns before them, as many
+// at once as stay in the caches.
+void subtract_before(double* panel, int columns, int first, int last, int top, int bottom)
 {
-    int first = 0;
-    for (; first + 4 <= columns; first += 4) {
-        if (!factor_block_column<4>(panel, columns, first, strips, inverse)) {
-            return false;
-        }
-    }
-    switch (columns - first) {
-    case 1:
-        return factor_block_column<1>(panel, columns, first, strips, inverse);
-    case 2:
-        return factor_block_column<2>(panel, columns, first, strips, inverse);
-    case 3:
-        return factor_block_column<3>(panel, columns, first, strips, inverse);
-    default:
-        return true;
+    for (int begin = 0; begin < first; begin += depth) {
+        const int end = begin + depth < first ? begin + depth : first;
+        for_strips(top, bottom, [&]<int S>(int s) {
+            for_columns(first, last, [&]<int N>(int column) {
+                BlockColumn<N>(panel, columns, column).template treat<S>(s, begin, end, [](Tile<S, N>&) {});
+                return true;
+            });
+        });
     }
 }
 
+bool factor(double* panel, int columns, int first, int last, int strips, double* inverse)
+{
+    for (int left = first; left < last; left += width) {
+        const int right = left + width < last ? left + width : last;
+        subtract_before(panel, columns, left, right, left / strip, strips);
+        const bool positive = for_columns(left, right, [&]<int N>(int column) {
+            return factor_block_column<N>(panel, columns, column, left, strips, inverse);
+        });
+        if (!positive) {
+            return false;
+        }
+    }
+    return true;
+}
+
 template <int N>
-void factor_rows_of(double* panel, int columns, int column, const double* inverses, int first, int last)
+void factor_rows_of(double* panel, int columns, int column, int begin, const double* inverses, int first, int last)
 {
     const BlockColumn<N> block(panel, columns, column);
     double triangle[N][N];
@@ -207,24 +246,18 @@ void factor_rows_of(double* panel, int columns, int column, const double* invers
         }
         inverse[i] = inverses[column + i];
     }
-    finish_block_column<N>(block, triangle, inverse, first, last);
+    finish_block_column<N>(block, triangle, inverse, begin, first, last);
 }
 
-void factor_rows(double* panel, int columns, const double* inverse, int first, int last)
+void factor_rows(double* panel, int columns, int first, int last, const double* inverse, int top, int bottom)
 {
-    int column = 0;
-    for (; column + 4 <= columns; column += 4) {
-        factor_rows_of<4>(panel, columns, column, inverse, first, last);
-    }
-    switch (columns - column) {
-    case 1:
-        return factor_rows_of<1>(panel, columns, column, inverse, first, last);
-    case 2:
-        return factor_rows_of<2>(panel, columns, column, inverse, first, last);
-    case 3:
-        return factor_rows_of<3>(panel, columns, column, inverse, first, last);
-    default:
-        return;
+    for (int left = first; left < last; left += width) {
+        const int right = left + width < last ? left + width : last;
+        subtract_before(panel, columns, left, right, top, bottom);
+        for_columns(left, right, [&]<int N>(int column) {
+            factor_rows_of<N>(panel, columns, column, left, inverse, top, bottom);
+            return true;
+        });
     }
 }
 
@@ -233,8 +266,9 @@ double* update_strip(double* update, int s)
     return update + 4 * static_cast<long>(strip) * s * (s + 1);
 }
 
+// The columns [first, last) of S strips less the products with the columns [begin, end) of the panel.
 template <int S>
-void update_strips(const double* below, int columns, double* update, int s, int first, int last)
+void update_strips(const double* below, int columns, double* update, int s, int first, int last, int begin, int end)
 {
     constexpr int N = 4;
     const double* a[S];
@@ -255,22 +289,25 @@ void update_strips(const double* below, int columns, double* update, int s, int 
         }
         Tile<S, N> tile;
         tile.load(c_const);
-        tile.subtract_products(a, b, columns);
+        tile.subtract_products(a, b, begin, end);
         tile.store(c);
     }
 }
 
 void update(const double* below, int columns, double* target, int first, int last)
 {
-    int s = first;
-    for (; s + paired <= last; s += paired) {
-        update_strips<paired>(below, columns, target, s, 0, strip * (s + 1));
-        for (int i = 1; i < paired; ++i) {
-            update_strips<1>(below, columns, target, s + i, strip * (s + 1), strip * (s + i + 1));
+    for (int begin = 0; begin < columns; begin += depth) {
+        const int end = begin + depth < columns ? begin + depth : columns;
+        for (int left = 0; left < strip * last; left += width) {
+            const int top = first > left / strip ? first : left / strip;
+            for_strips(top, last, [&]<int S>(int s) {
+                const int right = left + width < strip * (s + 1) ? left + width : strip * (s + 1);
+                update_strips<S>(below, columns, target, s, left, right, begin, end);
+                for (int i = 1; i < S && right < left + width; ++i) {
+                    update_strips<1>(below, columns, target, s + i, strip * (s + 1), strip * (s + i + 1), begin, end);
+                }
+            });
         }
-    }
-    for (; s < last; ++s) {
-        update_strips<1>(below, columns, target, s, 0, strip * (s + 1));
     }
 }
 

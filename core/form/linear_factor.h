@@ -55,7 +55,7 @@ struct LinearSolver::Factor
     bool factor_fronts(const BlockMatrix& matrix, double shift, const std::vector<int>& fronts, double* stack,
                        int helpers, const std::atomic<bool>& failed);
     void assemble_matrix(const BlockMatrix& matrix, double shift, int f);
-    void assemble_child(int f, int child, double* update_matrix);
+    void assemble_child(int f, int child, double* update_matrix, int helpers);
     bool factor_panel(int f, int helpers);
     void subtract_update(int f, double* update_matrix, int helpers) const;
     double total_work() const;

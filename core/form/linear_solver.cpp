@@ -11,7 +11,8 @@ namespace rhombloom {
 
 namespace {
 
-constexpr int smallest_shared_update = 24; // strips of an update matrix that two threads share
+constexpr int smallest_shared = 24;  // strips that two threads share
+constexpr int columns_at_once = 128; // of a front that several threads factor
 
 // A strip of a child's update on its way to the front of its parent.
 struct Scatter
@@ -38,6 +39,17 @@ struct Scatter
     }
 };
 
+// Call action(first, last) for parts of the strips of a lower triangle, the longest first, on so many threads.
+template <class Action>
+void for_parts(int helpers, int strips, const Action& action)
+{
+    const int parts = helpers == 1 || strips < smallest_shared ? 1 : strips / 8;
+    parallel_tasks(helpers, parts, [&](int part) {
+        const int p = parts - 1 - part;
+        action(strips * p / parts, strips * (p + 1) / parts);
+    });
+}
+
 } // namespace
 
 void LinearSolver::Factor::assemble_matrix(const BlockMatrix& matrix, double shift, int f)
@@ -58,7 +70,7 @@ void LinearSolver::Factor::assemble_matrix(const BlockMatrix& matrix, double shi
 }
 
 // Extend-add: the child's update goes to the front's pivot columns and to its own update.
-void LinearSolver::Factor::assemble_child(int f, int child, double* update_matrix)
+void LinearSolver::Factor::assemble_child(int f, int child, double* update_matrix, int helpers)
 {
     const Front& front = tree.fronts[f];
     const std::vector<int>& rows = tree.fronts[child].rows;
@@ -83,33 +95,38 @@ void LinearSolver::Factor::assemble_child(int f, int child, double* update_matri
             pivot_columns += pivot;
         }
     }
-    const double* source = update[child];
-    for (int s = 0; strip * s < n; ++s) {
-        const double* from = source + update_row(strip * s);
-        const Scatter scatter{from, column.data(), strip * s, std::min(strip, n - strip * s)};
-        scatter.add(0, std::min(pivot_columns, n), in_panel.data());
-        scatter.add(pivot_columns, n, in_update.data());
-    }
+    for_parts(helpers, strip_count(n), [&](int first, int last) {
+        for (int s = first; s < last; ++s) {
+            const double* from = update[child] + update_row(strip * s);
+            const Scatter scatter{from, column.data(), strip * s, std::min(strip, n - strip * s)};
+            scatter.add(0, pivot_columns, in_panel.data());
+            scatter.add(pivot_columns, n, in_update.data());
+        }
+    });
 }
 
-// Cholesky's columns of the front; the rows below the pivots side by side.
+// Cholesky's columns of the front, so many at a time; the rows below their pivots side by side.
 bool LinearSolver::Factor::factor_panel(int f, int helpers)
 {
     const FrontShape& shape = shapes[f];
     double* panel = panels.data() + panel_offset[f];
-    const int below = shape.strips - shape.diagonal_strips;
-    if (helpers == 1 || below < smallest_shared_update) {
-        return dense_kernels().factor(panel, shape.columns, shape.strips, nullptr);
+    if (helpers == 1) {
+        return dense_kernels().factor(panel, shape.columns, 0, shape.columns, shape.strips, nullptr);
     }
     std::vector<double> inverse(shape.columns);
-    if (!dense_kernels().factor(panel, shape.columns, shape.diagonal_strips, inverse.data())) {
-        return false;
+    for (int first = 0; first < shape.columns; first += columns_at_once) {
+        const int last = std::min(first + columns_at_once, shape.columns);
+        const int top = strip_count(last);
+        if (!dense_kernels().factor(panel, shape.columns, first, last, top, inverse.data())) {
+            return false;
+        }
+        const int below = shape.strips - top;
+        const int chunks = below < smallest_shared ? 1 : 2 * helpers;
+        parallel_tasks(helpers, chunks, [&](int c) {
+            dense_kernels().factor_rows(panel, shape.columns, first, last, inverse.data(), top + below * c / chunks,
+                                        top + below * (c + 1) / chunks);
+        });
     }
-    const int chunks = 4 * helpers;
-    parallel_tasks(helpers, chunks, [&](int c) {
-        dense_kernels().factor_rows(panel, shape.columns, inverse.data(), shape.diagonal_strips + below * c / chunks,
-                                    shape.diagonal_strips + below * (c + 1) / chunks);
-    });
     return true;
 }
 
@@ -118,14 +135,8 @@ void LinearSolver::Factor::subtract_update(int f, double* update_matrix, int hel
     const FrontShape& shape = shapes[f];
     const int strips = shape.strips - shape.diagonal_strips;
     const double* below = panels.data() + panel_offset[f] + std::size_t(strip) * shape.columns * shape.diagonal_strips;
-    if (helpers == 1 || strips < smallest_shared_update) {
-        dense_kernels().update(below, shape.columns, update_matrix, 0, strips);
-        return;
-    }
-    const int chunks = strips / 8;
-    parallel_tasks(helpers, chunks, [&](int chunk) {
-        const int c = chunks - 1 - chunk; // the longest first
-        dense_kernels().update(below, shape.columns, update_matrix, strips * c / chunks, strips * (c + 1) / chunks);
+    for_parts(helpers, strips, [&](int first, int last) {
+        dense_kernels().update(below, shape.columns, update_matrix, first, last);
     });
 }
 
@@ -143,7 +154,7 @@ bool LinearSolver::Factor::factor_fronts(const BlockMatrix& matrix, double shift
         std::fill_n(own, shape.update_size(), 0.0);
         assemble_matrix(matrix, shift, f);
         for (const int child : children[f]) {
-            assemble_child(f, child, own);
+            assemble_child(f, child, own, helpers);
             if (update[child] >= stack && update[child] < own) {
                 bottom = std::min(bottom, update[child]);
             }
