@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/form/parallel.h"
 
@@ -37,7 +38,23 @@ ConcaveHinges::ConcaveHinges(const EmbeddingTerms& terms, const VectorXd& x, int
       responses_(terms.hinges.size()), angle_(terms.hinges.size()), gradients_(12, terms.hinges.size())
 {
     find_angles(x);
-    const double width = first_width * angle_.abs().mean();
+    round_off(first_width * mean_angle());
+}
+
+double ConcaveHinges::width() const
+{
+    return std::sqrt(mean_product() / (2 * weight_));
+}
+
+void ConcaveHinges::put_on_path(const VectorXd& x, double width)
+{
+    find_angles(x);
+    round_off(width);
+    first_residual_ = std::numeric_limits<double>::infinity(); // nothing to wait for
+}
+
+void ConcaveHinges::round_off(double width)
+{
     const ArrayXd root = (angle_.square() + 4 * width * width).sqrt();
     slack_ = 0.5 * (root + angle_).max(2 * width * width / root);
     force_ = weight_ * (root - angle_).max(2 * width * width / root);

@@ -12,8 +12,17 @@ class ConcaveHinges
 public:
     ConcaveHinges(const EmbeddingTerms& terms, const Eigen::VectorXd& x, int threads);
 
+    double mean_angle() const { return angle_.abs().mean(); }
+
     //! \brief The mean product of slack and force: how far it is from being settled which hinges are concave.
     double mean_product() const { return (slack_ * force_).mean(); }
+
+    //! \brief The width of angles over which the hinges are rounded on the central path with that mean.
+    double width() const;
+
+    //! \brief Take the point of the central path with \p width for slacks and forces; \p x should be its minimum, see
+    //! smoothed_descent().
+    void put_on_path(const Eigen::VectorXd& x, double width);
 
     //! \brief See the hinges at the positions \p x.
     void look(const Eigen::VectorXd& x);
@@ -40,6 +49,7 @@ public:
     void advance(double share);
 
 private:
+    void round_off(double width);
     void find_angles(const Eigen::VectorXd& x);
     Eigen::VectorXd spread(const Eigen::ArrayXd& values) const;
     Eigen::ArrayXd along(const Eigen::VectorXd& step) const;

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/form/concave_hinges.h"
 #include "core/form/quasi_newton.h"
+#include "core/form/smoothed_descent.h"
 
 namespace rhombloom {
 
@@ -10,54 +12,102 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int max_iterations = 60;
+constexpr int max_iterations = 200;
 constexpr double largest_move = 1;      // la
 constexpr double smallest_step = 0.02;  // share of the direction; below, the Hessian is nearly indefinite
+constexpr double smallest_near = 0.3;   // the same near equilibrium
+constexpr double near = 0.05;           // of the first residual
+constexpr double path_width = 0.04;     // of the mean angle: where near a first equilibrium the path begins
+constexpr double least_width = 1e-8;    // of the mean angle
+constexpr double narrower = 0.5;        // of the width from which the last steps did not lead on
 constexpr double nearly_arrived = 1e-4; // gradient; below, the last factor may be good for all that is left
 constexpr double arrived = 1e-5;        // gradient; below, it is known which hinges are concave
-constexpr double near = 1e-3;           // gradient; below, an indefinite Hessian is not for this method
 constexpr int followers = 8;            // steps with one factor
 constexpr double worthwhile = 0.25;     // share of the gradient that two of them may leave
 
-// One step of Mehrotra's predictor and corrector, if the Hessian with that damping is good for one.
-bool interior_step(NewtonSystem& system, ConcaveHinges& hinges, Iterate& iterate, const EmbeddingTerms& terms,
-                   double damping)
+// Along the central path, and back to it.
+class Descent
 {
-    HessianOptions options;
-    options.damping = damping;
-    options.hinges = &hinges.responses();
-    if (!system.factor(iterate, options)) {
-        return false;
+public:
+    Descent(const EmbeddingTerms& terms, NewtonSystem& system, const Iterate& start, const MinimiseOptions& options)
+        : terms_(terms), system_(system), options_(options), hinges_(terms, start.x, options.threads), now_(start)
+    {
     }
-    const VectorXd residual = hinges.residual(iterate);
-    hinges.direction(system, residual, Eigen::ArrayXd::Zero(terms.hinges.size()));
-    const VectorXd step = hinges.direction(system, residual, hinges.corrected_target(residual.norm()));
-    const double move = std::sqrt(step.reshaped(3, terms.vertex_count).colwise().squaredNorm().maxCoeff());
-    const double share = std::min(hinges.longest_step(), largest_move / move);
-    if (!(share > smallest_step)) {
-        return false;
-    }
-    hinges.advance(share);
-    iterate = iterate_at(terms, iterate.x + share * step);
-    return std::isfinite(iterate.energy);
-}
 
-// A step with as little damping as will do; false when the iteration is stuck. An edge that is shorter than in
-// equilibrium by a thousandth has lost its tension, and with it what holds its ends in place; a damped step gives it
-// back.
-bool damped_step(NewtonSystem& system, ConcaveHinges& hinges, Iterate& iterate, const EmbeddingTerms& terms)
-{
-    hinges.look(iterate.x);
-    for (const double damping : {0.0, 0.1, 0.3, 1.0}) {
-        if (damping > 0 && iterate.gradient_norm() < near) {
+    const Iterate& now() const { return now_; }
+    double mean_angle() const { return hinges_.mean_angle(); }
+
+    // False when the iteration is stuck, or it is time to stop.
+    bool step(MinimiseResult& result)
+    {
+        hinges_.look(now_.x);
+        const double residual = hinges_.residual(now_).norm();
+        first_residual_ = std::max(first_residual_, residual);
+        if (on_path_ || residual < near * first_residual_) {
+            return interior_step(0, smallest_near, result) ||
+                   return_to_path(std::min(hinges_.width(), narrower * last_width_), result);
+        }
+        return damped_step(result);
+    }
+
+    // To the minimum with that width. Far from the path, a mean is no measure of slacks and forces, and the Hessian can
+    // become indefinite where it is not on the path, or on it, where the surface loses a symmetry.
+    bool return_to_path(double width, MinimiseResult& result)
+    {
+        if (width < least_width * mean_angle() || !smoothed_descent(terms_, system_, now_, width, options_, result)) {
             return false;
         }
-        if (interior_step(system, hinges, iterate, terms, damping)) {
-            return true;
-        }
+        hinges_.put_on_path(now_.x, width);
+        last_width_ = width;
+        on_path_ = true;
+        return true;
     }
-    return false;
-}
+
+private:
+    // One step of Mehrotra's predictor and corrector, if the Hessian with that damping is good for one.
+    bool interior_step(double damping, double least_share, MinimiseResult& result)
+    {
+        HessianOptions options;
+        options.damping = damping;
+        options.hinges = &hinges_.responses();
+        if (!system_.factor(now_, options)) {
+            return false;
+        }
+        const VectorXd residual = hinges_.residual(now_);
+        hinges_.direction(system_, residual, Eigen::ArrayXd::Zero(terms_.hinges.size()));
+        const VectorXd step = hinges_.direction(system_, residual, hinges_.corrected_target(residual.norm()));
+        const double move = std::sqrt(step.reshaped(3, terms_.vertex_count).colwise().squaredNorm().maxCoeff());
+        const double share = std::min(hinges_.longest_step(), largest_move / move);
+        if (!(share > least_share)) {
+            return false;
+        }
+        hinges_.advance(share);
+        now_ = iterate_at(terms_, now_.x + share * step);
+        ++result.iterations;
+        return std::isfinite(now_.energy);
+    }
+
+    // A step with as little damping as will do. An edge that is shorter than in equilibrium by a thousandth has lost
+    // its tension, and with it what holds its ends in place; a damped step gives it back.
+    bool damped_step(MinimiseResult& result)
+    {
+        for (const double damping : {0.0, 0.1, 0.3, 1.0}) {
+            if (interior_step(damping, smallest_step, result)) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    const EmbeddingTerms& terms_;
+    NewtonSystem& system_;
+    const MinimiseOptions& options_;
+    ConcaveHinges hinges_;
+    Iterate now_;
+    double first_residual_ = 0;
+    double last_width_ = std::numeric_limits<double>::infinity();
+    bool on_path_ = false;
+};
 
 // Quasi-Newton steps with the last factor, which is nearly that of the Hessian as soon as it is nearly known which
 // hinges are concave; true when they arrive.
@@ -84,28 +134,54 @@ bool follow_up(const NewtonSystem& system, const EmbeddingTerms& terms, Iterate 
     return true;
 }
 
+// Steps until nothing is left to settle; the best iterate goes to \p iterate.
+void follow(Descent& descent, const NewtonSystem& system, const EmbeddingTerms& terms, Iterate& iterate,
+            const MinimiseOptions& options, MinimiseResult& result)
+{
+    while (descent.now().gradient_norm() > arrived && !should_stop(descent.now(), options, result) &&
+           result.iterations < max_iterations && descent.step(result)) {
+        if (descent.now().energy < iterate.energy) {
+            iterate = descent.now();
+        }
+        if (descent.now().gradient_norm() < nearly_arrived &&
+            follow_up(system, terms, descent.now(), iterate, options.tolerance)) {
+            break;
+        }
+    }
+    if (descent.now().energy < iterate.energy) {
+        iterate = descent.now();
+    }
+    should_stop(iterate, options, result);
+}
+
+bool has_concave_hinges(const EmbeddingTerms& terms)
+{
+    return !terms.hinges.empty() && terms.hinge_law.concavity_weight > 0 && terms.hinge_law.convex_weight < 1;
+}
+
 } // namespace
 
 MinimiseResult interior_descent(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& iterate,
                                 const MinimiseOptions& options)
 {
     MinimiseResult result;
-    if (terms.hinges.empty() || terms.hinge_law.concavity_weight <= 0 || terms.hinge_law.convex_weight >= 1) {
-        return result;
+    if (has_concave_hinges(terms)) {
+        Descent descent(terms, system, iterate, options);
+        follow(descent, system, terms, iterate, options, result);
     }
-    Iterate now = iterate;
-    ConcaveHinges hinges(terms, now.x, options.threads);
-    while (now.gradient_norm() > arrived && !should_stop(now, options, result) && result.iterations < max_iterations &&
-           damped_step(system, hinges, now, terms)) {
-        ++result.iterations;
-        if (now.energy < iterate.energy) {
-            iterate = now;
-        }
-        if (now.gradient_norm() < nearly_arrived && follow_up(system, terms, now, iterate, options.tolerance)) {
-            break;
+    return result;
+}
+
+MinimiseResult interior_descent_near(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& iterate,
+                                     const MinimiseOptions& options, double share)
+{
+    MinimiseResult result;
+    if (has_concave_hinges(terms)) {
+        Descent descent(terms, system, iterate, options);
+        if (descent.return_to_path(share * path_width * descent.mean_angle(), result)) {
+            follow(descent, system, terms, iterate, options, result);
         }
     }
-    should_stop(iterate, options, result);
     return result;
 }
 

@@ -135,9 +135,8 @@ void LinearSolver::Factor::subtract_update(int f, double* update_matrix, int hel
     const FrontShape& shape = shapes[f];
     const int strips = shape.strips - shape.diagonal_strips;
     const double* below = panels.data() + panel_offset[f] + std::size_t(strip) * shape.columns * shape.diagonal_strips;
-    for_parts(helpers, strips, [&](int first, int last) {
-        dense_kernels().update(below, shape.columns, update_matrix, first, last);
-    });
+    for_parts(helpers, strips,
+              [&](int first, int last) { dense_kernels().update(below, shape.columns, update_matrix, first, last); });
 }
 
 bool LinearSolver::Factor::factor_fronts(const BlockMatrix& matrix, double shift, const std::vector<int>& fronts,

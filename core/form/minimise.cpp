@@ -1,8 +1,46 @@
 #include "core/form/minimise.h"
 
+#include <future>
+
 #include "core/form/newton_system.h"
 
 namespace rhombloom {
+
+namespace {
+
+constexpr int settled_in = 16; // quasi-Newton steps; who wants a quick look has stopped before
+
+// The system of Newton's method, set up on the way while quasi-Newton steps leave a thread idle.
+class PreparedSystem
+{
+public:
+    PreparedSystem(const EmbeddingTerms& terms, int threads) : terms_(terms), threads_(threads) {}
+
+    void prepare()
+    {
+        if (is_large(terms_) && threads_ > 1) {
+            coming_ = std::async(std::launch::async, [this] { return made(); });
+        }
+    }
+
+    NewtonSystem& get()
+    {
+        if (!system_) {
+            system_ = coming_.valid() ? coming_.get() : made();
+        }
+        return *system_;
+    }
+
+private:
+    std::unique_ptr<NewtonSystem> made() const { return std::make_unique<NewtonSystem>(terms_, threads_); }
+
+    const EmbeddingTerms& terms_;
+    int threads_;
+    std::unique_ptr<NewtonSystem> system_;
+    std::future<std::unique_ptr<NewtonSystem>> coming_;
+};
+
+} // namespace
 
 MinimiseOptions rest_of(const MinimiseOptions& options, int done)
 {
@@ -37,22 +75,28 @@ bool is_large(const EmbeddingTerms& terms)
 
 MinimiseResult minimise(const EmbeddingTerms& terms, Iterate& iterate, const MinimiseOptions& options)
 {
-    MinimiseResult result = quasi_newton(terms, iterate, options);
+    PreparedSystem system(terms, options.threads);
+    MinimiseOptions watched = options;
+    watched.progress = [&](int iteration, const Iterate& now) {
+        if (iteration == settled_in) {
+            system.prepare();
+        }
+        return !options.progress || options.progress(iteration, now);
+    };
+    MinimiseResult result = quasi_newton(terms, iterate, watched);
     const auto go_on = [&](auto&& method) {
         if (result.reason == StopReason::Stalled) {
             const int before = result.iterations;
-            result = method(rest_of(options, before));
+            result = method(system.get(), rest_of(options, before));
             result.iterations += before;
         }
     };
-    if (result.reason != StopReason::Stalled) {
-        return result;
-    }
-    NewtonSystem system(terms, options.threads);
     if (is_large(terms)) {
-        go_on([&](const MinimiseOptions& rest) { return interior_descent(terms, system, iterate, rest); });
+        go_on([&](NewtonSystem& newton, const MinimiseOptions& rest) {
+            return interior_descent(terms, newton, iterate, rest);
+        });
     }
-    go_on([&](const MinimiseOptions& rest) { return newton_with(system, terms, iterate, rest); });
+    go_on([&](NewtonSystem& newton, const MinimiseOptions& rest) { return newton_with(newton, terms, iterate, rest); });
     return result;
 }
 

@@ -56,6 +56,12 @@ MinimiseResult quasi_newton(const EmbeddingTerms& terms, Iterate& iterate, const
 MinimiseResult interior_descent(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& iterate,
                                 const MinimiseOptions& options);
 
+//! \brief The same from near an equilibrium where the Hessian is indefinite: first to a point of the method's central
+//! path where it is not, see smoothed_descent(). \p share: how far along the path that is; smaller is nearer to its
+//! end.
+MinimiseResult interior_descent_near(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& iterate,
+                                     const MinimiseOptions& options, double share);
+
 //! \brief For a method that begins after \p done iterations.
 MinimiseOptions rest_of(const MinimiseOptions& options, int done);
 

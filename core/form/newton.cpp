@@ -3,7 +3,6 @@
 
 #include "core/form/newton_system.h"
 #include "core/form/quasi_newton.h"
-#include "core/form/smoothed_descent.h"
 
 namespace rhombloom {
 
@@ -71,13 +70,14 @@ MinimiseResult newton_with(NewtonSystem& system, const EmbeddingTerms& terms, It
 {
     MinimiseResult result;
     Stagnation stagnation(iterate);
-    double width = 0;
+    double share = 1;
     while (!stagnation.lasts(iterate)) {
         const bool exact = is_large(terms) && system.factor(iterate, {});
         if (is_large(terms) && !exact) {
             const int before = result.iterations;
-            result = smoothed_descent(terms, system, iterate, rest_of(options, before), width);
+            result = interior_descent_near(terms, system, iterate, rest_of(options, before), share);
             result.iterations += before;
+            share /= 4;
             if (result.reason != StopReason::Stalled || result.iterations == before) {
                 return result;
             }
@@ -85,11 +85,11 @@ MinimiseResult newton_with(NewtonSystem& system, const EmbeddingTerms& terms, It
         }
         const Iterate last = iterate;
         const VectorXd direction = exact ? VectorXd(-system.solve(iterate.gradient)) : system.direction(iterate);
-        const double share = line_search(terms, iterate, direction, {1, 2});
-        if (share == 0) {
+        const double step = line_search(terms, iterate, direction, {1, 2});
+        if (step == 0) {
             break;
         }
-        if (share < shortened && is_large(terms)) {
+        if (step < shortened && is_large(terms)) {
             follow_up(terms, system, last, iterate, options);
         }
         ++result.iterations;

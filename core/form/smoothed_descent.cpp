@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/form/parallel.h"
 
@@ -12,9 +11,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double first_width = 0.04;  // of the mean angle
-constexpr double least_width = 1e-8;  // of the mean angle
-constexpr double narrower = 0.5;      // from width to width
 constexpr double close_enough = 0.02; // gradient with the width against the exact one
 constexpr int most_steps = 20;        // with one width
 constexpr int portions = 16;          // of the hinges
@@ -133,18 +129,10 @@ double newton_direction(NewtonSystem& system, const Iterate& smoothed, const std
     return 1;
 }
 
-double mean_angle(const EmbeddingTerms& terms, const VectorXd& x)
-{
-    return std::accumulate(terms.hinges.begin(), terms.hinges.end(), 0.0,
-                           [&](double sum, const HingeVertices& hinge) {
-                               return sum + std::abs(hinge_angle(hinge_points(x, hinge)));
-                           }) /
-           double(terms.hinges.size());
-}
+} // namespace
 
-// To the minimum with a width, from \p now; false when that is no longer near, or it is time to stop.
-bool descend(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& now, double width,
-             const MinimiseOptions& options, MinimiseResult& result)
+bool smoothed_descent(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& now, double width,
+                      const MinimiseOptions& options, MinimiseResult& result)
 {
     Smoothed energy(terms, width, options.threads);
     double damping = 1;
@@ -157,7 +145,7 @@ bool descend(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& now, do
         damping = newton_direction(system, smoothed, energy.responses(), direction);
         const auto at = [&](VectorXd x) { return energy.at(iterate_at(terms, std::move(x))); };
         if (line_search(at, smoothed, direction, {1, 0.3}) == 0) {
-            break;
+            return k > 0;
         }
         now = iterate_at(terms, std::move(smoothed.x));
         ++result.iterations;
@@ -166,25 +154,6 @@ bool descend(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& now, do
         }
     }
     return true;
-}
-
-} // namespace
-
-MinimiseResult smoothed_descent(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& iterate,
-                                const MinimiseOptions& options, double& width)
-{
-    MinimiseResult result;
-    Iterate now = iterate;
-    const double mean = mean_angle(terms, now.x);
-    width = width == 0 ? first_width * mean : width;
-    for (bool arrived = false; !arrived && width > least_width * mean; width *= narrower) {
-        arrived = !descend(terms, system, now, width, options, result);
-        if (result.reason == StopReason::Converged || now.energy < iterate.energy) {
-            iterate = now;
-        }
-        arrived = arrived || (iterate.energy == now.energy && system.factor(now, {}));
-    }
-    return result;
 }
 
 } // namespace rhombloom
