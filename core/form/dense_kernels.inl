@@ -344,14 +344,19 @@ void solve_forward(const double* panel, int columns, int diagonal_strips, int st
     }
 }
 
-// sums(k) += column k of the strip times w(strip), lane by lane.
-void add_columns(const double* row, int count, const double* w, double* sums)
+// sums(k) += column k of the strips from the first on upwards times w, lane by lane; `row` and `w` are those of the first.
+template <int S>
+void add_columns(const double* row, int columns, int count, const double* w, double* sums)
 {
     for (int k = 0; k < count; ++k) {
         for (int p = 0; p < parts; ++p) {
             const int offset = strip * k + lanes * p;
-            *reinterpret_cast<Vector*>(sums + offset) += *reinterpret_cast<const Vector*>(row + offset) *
-                                                         *reinterpret_cast<const Vector*>(w + lanes * p);
+            Vector sum = *reinterpret_cast<const Vector*>(sums + offset);
+            for (int i = 0; i < S; ++i) {
+                sum += *reinterpret_cast<const Vector*>(row - static_cast<long>(strip) * columns * i + offset) *
+                       *reinterpret_cast<const Vector*>(w - strip * i + lanes * p);
+            }
+            *reinterpret_cast<Vector*>(sums + offset) = sum;
         }
     }
 }
@@ -364,10 +369,14 @@ double lane_sum(const double* s)
 void solve_backward(const double* panel, int columns, int diagonal_strips, int strips, double* w, double* scratch)
 {
     __builtin_memset(scratch, 0, sizeof(double) * strip * columns);
-    for (int s = strips - 1; s >= diagonal_strips; --s) {
-        add_columns(panel + static_cast<long>(strip) * columns * s, columns, w + strip * s, scratch);
+    int s = strips - 1;
+    for (; s - 3 >= diagonal_strips; s -= 4) {
+        add_columns<4>(panel + static_cast<long>(strip) * columns * s, columns, columns, w + strip * s, scratch);
     }
-    for (int s = diagonal_strips - 1; s >= 0; --s) {
+    for (; s >= diagonal_strips; --s) {
+        add_columns<1>(panel + static_cast<long>(strip) * columns * s, columns, columns, w + strip * s, scratch);
+    }
+    for (; s >= 0; --s) {
         const double* row = panel + static_cast<long>(strip) * columns * s;
         const int end = columns < strip * (s + 1) ? columns : strip * (s + 1);
         for (int k = end - 1; k >= strip * s; --k) {
@@ -380,7 +389,7 @@ void solve_backward(const double* panel, int columns, int diagonal_strips, int s
         for (int k = end; k < strip * (s + 1); ++k) {
             w[k] = 0;
         }
-        add_columns(row, strip * s, w + strip * s, scratch);
+        add_columns<1>(row, columns, strip * s, w + strip * s, scratch);
     }
 }
 

@@ -92,6 +92,10 @@ void LinearSolver::Factor::split_into_tasks()
         }
     }
     std::reverse(top.fronts.begin(), top.fronts.end());
+    largest_first.resize(subtrees.size());
+    std::iota(largest_first.begin(), largest_first.end(), 0);
+    std::stable_sort(largest_first.begin(), largest_first.end(),
+                     [&](int a, int b) { return work[subtrees[a].fronts.back()] > work[subtrees[b].fronts.back()]; });
     for (Task& task : subtrees) {
         task.stack.resize(stack_size(task.fronts));
     }

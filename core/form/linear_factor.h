@@ -41,6 +41,7 @@ struct LinearSolver::Factor
     std::vector<std::vector<int>> places; // per front: of its rows below the pivots, in the vector being solved for
     int place_count = 0;                  // block rows of that vector
     std::vector<Task> subtrees;           // independent of each other
+    std::vector<int> largest_first;       // these, by work
     Task top;                             // the fronts that are in no subtree, in order
     std::vector<double> panels;
     std::vector<double*> update; // per front, while its parent needs it

@@ -238,7 +238,7 @@ bool LinearSolver::factor(const BlockMatrix& matrix, double shift)
     Factor& f = *factor_;
     std::atomic<bool> failed = false;
     parallel_tasks(f.threads, static_cast<int>(f.subtrees.size()), [&](int k) {
-        Task& task = f.subtrees[k];
+        Task& task = f.subtrees[f.largest_first[k]];
         if (!f.factor_fronts(matrix, shift, task.fronts, task.stack.data(), 1, failed)) {
             failed = true;
         }
