@@ -1,12 +1,12 @@
-// Included once per instruction set by dense_kernels.cpp, inside a namespace of its own that defines `lanes` (doubles per
-// vector register) and `paired` (strips treated at once).
+// Included once per instruction set by dense_kernels.cpp, inside a namespace of its own that defines `lanes` (doubles
+// per vector register) and `paired` (strips treated at once).
 
 using Vector = double __attribute__((vector_size(lanes * sizeof(double)), aligned(8), may_alias));
 
 constexpr int parts = strip / lanes; // registers per strip
-constexpr int depth = 128;           // columns of a panel whose products are subtracted at once: a tile's rows stay in the
-                                     // first cache
-constexpr int width = 64;            // columns they are subtracted from: a multiple of a strip, in the second cache
+constexpr int depth = 128; // columns of a panel whose products are subtracted at once: a tile's rows stay in the
+                           // first cache
+constexpr int width = 64;  // columns they are subtracted from: a multiple of a strip, in the second cache
 
 // Tile of `S` strips times `N` columns held in registers.
 template <int S, int N>
@@ -100,7 +100,8 @@ bool factor_triangle(double* panel, int columns, int first, double (&triangle)[N
     return true;
 }
 
-// Columns [first, first + N) of a panel: each entry is what it was less the products of its row and its column's pivot row.
+// Columns [first, first + N) of a panel: each entry is what it was less the products of its row and its column's pivot
+// row.
 template <int N>
 struct BlockColumn
 {
@@ -204,8 +205,8 @@ bool factor_block_column(double* panel, int columns, int first, int begin, int s
     return true;
 }
 
-// Subtract from the columns [first, last) of the strips [top, bottom) the products with all columns before them, as many
-// at once as stay in the caches.
+// Subtract from the columns [first, last) of the strips [top, bottom) the products with all columns before them, as
+// many at once as stay in the caches.
 void subtract_before(double* panel, int columns, int first, int last, int top, int bottom)
 {
     for (int begin = 0; begin < first; begin += depth) {
@@ -344,7 +345,8 @@ void solve_forward(const double* panel, int columns, int diagonal_strips, int st
     }
 }
 
-// sums(k) += column k of the strips from the first on upwards times w, lane by lane; `row` and `w` are those of the first.
+// sums(k) += column k of the strips from the first on upwards times w, lane by lane; `row` and `w` are those of the
+// first.
 template <int S>
 void add_columns(const double* row, int columns, int count, const double* w, double* sums)
 {

@@ -50,8 +50,8 @@ public:
         return damped_step(result);
     }
 
-    // To the minimum with that width. Far from the path, a mean is no measure of slacks and forces, and the Hessian can
-    // become indefinite where it is not on the path, or on it, where the surface loses a symmetry.
+    // To the path's point with that width: off the path the Hessian can be indefinite where it is not on it; and if it
+    // becomes so on the path, the surface loses a symmetry there, for which that point has to be a minimum.
     bool return_to_path(double width, MinimiseResult& result)
     {
         if (width < least_width * mean_angle() || !smoothed_descent(terms_, system_, now_, width, options_, result)) {
