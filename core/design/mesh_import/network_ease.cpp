@@ -95,7 +95,6 @@ private:
     bool is_better(const Trial& trial) const;
     bool take(std::vector<Change>& changes);
     Corners focus(const Trial& trial, const Vec3& where) const;
-    MoveLimits limits(const Trial& trial) const;
     double score(const Trial& trial) const { return rhombloom::score(trial, price_); }
 
     Trial& best_;
@@ -106,15 +105,6 @@ private:
     bool crosses_;              //!< elements cross each other
     std::vector<Vec3> in_vain_; //!< places
 };
-
-MoveLimits Easing::limits(const Trial& trial) const
-{
-    constexpr double most_changed = 0.04;
-    const double asked = trials_.options.elements;
-    const auto count = static_cast<double>(trial.ratings.size());
-    return {max_move_degree(trials_.element), count + 3 <= (1 + most_changed) * asked,
-            count - 3 >= (1 - most_changed) * asked, true};
-}
 
 Corners corners_of(const Trial& trial, int element)
 {
@@ -173,7 +163,9 @@ std::vector<Step> Easing::steps(const std::vector<Node>& nodes, std::vector<Patc
                    [&](int k) { patches[k] = patch_around(nodes[k].trial, nodes[k].focus, trials_, price_); });
     std::vector<Step> result;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-        for (const Move& move : moves_near(patches[k].plan, patches[k].worst, limits(nodes[k].trial))) {
+        MoveLimits limits = move_limits(nodes[k].trial, trials_);
+        limits.may_pop = true;
+        for (const Move& move : moves_near(patches[k].plan, patches[k].worst, limits)) {
             result.push_back({&nodes[k], &patches[k], move, std::nullopt});
         }
     }
@@ -194,13 +186,16 @@ std::vector<Step> Easing::steps(const std::vector<Node>& nodes, std::vector<Patc
     return result;
 }
 
-//! Settle the wholes with the changes. Elements that did not cross each other stay apart.
+//! Settle the wholes with the changes. Elements that did not cross each other stay apart, and as many as were asked
+//! for.
 void Easing::settle_all(std::vector<Change>& changes)
 {
     parallel_tasks(default_threads(), static_cast<int>(changes.size()), [&](int k) {
         Change& change = changes[k];
         change.result = settle(replaced(*change.whole, change.parts), trials_);
-        if (change.result && !crosses_ && has_crossings(change.result->found.surface)) {
+        const bool spoilt = change.result && (!keeps_count(*change.result, *change.whole, trials_) ||
+                                              (!crosses_ && has_crossings(change.result->found.surface)));
+        if (spoilt) {
             change.result.reset();
         }
     });

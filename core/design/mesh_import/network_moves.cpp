@@ -1,6 +1,7 @@
 #include "core/design/mesh_import/network_moves.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "core/design/mesh_import/remesh_mesh.h"
@@ -14,6 +15,8 @@ using EdgeHandle = EditMesh::EdgeHandle;
 
 constexpr std::size_t most_splits = 4;
 constexpr std::size_t most_collapses = 2;
+constexpr double most_changed = 0.04; // of the number of elements asked for
+constexpr int per_change = 3;         // elements that a split adds and a collapse takes away
 
 struct Ranked
 {
@@ -107,6 +110,21 @@ std::set<int> edges_near(const EditMesh& mesh, const Corners& place)
 }
 
 } // namespace
+
+MoveLimits move_limits(const Trial& trial, const Trials& trials)
+{
+    const double asked = trials.options.elements;
+    const auto count = static_cast<double>(trial.ratings.size());
+    return {max_move_degree(trials.element), count + per_change <= (1 + most_changed) * asked,
+            count - per_change >= (1 - most_changed) * asked};
+}
+
+bool keeps_count(const Trial& changed, const Trial& before, const Trials& trials)
+{
+    const double asked = trials.options.elements;
+    const auto off = [&](const Trial& trial) { return std::abs(static_cast<double>(trial.ratings.size()) - asked); };
+    return off(changed) <= std::max(most_changed * asked, off(before));
+}
 
 std::vector<Move> moves_near(const Plan& plan, const Corners& place, const MoveLimits& limits)
 {

@@ -27,6 +27,12 @@ struct MoveLimits
     bool may_pop = false;
 };
 
+//! \brief What may be changed in \p trial for its number of elements to stay near the one asked for.
+MoveLimits move_limits(const Trial& trial, const Trials& trials);
+
+//! \brief Is the number of elements of a changed network near the one asked for, or no farther from it than \p before?
+bool keeps_count(const Trial& changed, const Trial& before, const Trials& trials);
+
 //! \brief Changes around the element between two corners, the most promising first.
 std::vector<Move> moves_near(const Plan& plan, const Corners& place, const MoveLimits& limits);
 

@@ -9,9 +9,8 @@ namespace rhombloom {
 
 namespace {
 
-constexpr double least_gain = 5e-4;   // of the score, la
-constexpr double most_changed = 0.04; // of the number of elements, by splits and collapses
-constexpr double reach = 3;           // edges of triangles over which a move is judged
+constexpr double least_gain = 5e-4; // of the score, la
+constexpr double reach = 3;         // edges of triangles over which a move is judged
 constexpr int least_places = 8;
 constexpr int elements_per_place = 75; // the more elements, the more places at once: a round costs an embedding
 constexpr int patience = 4;            // rounds in vain after which it ends
@@ -103,10 +102,7 @@ std::vector<Place> Polishing::places()
     std::vector<int> order(bad.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return bad[a] > bad[b]; });
-    const double asked = trials_.options.elements;
-    const auto count = static_cast<double>(bad.size());
-    const MoveLimits limits{max_move_degree(trials_.element), count + 3 <= (1 + most_changed) * asked,
-                            count - 3 >= (1 - most_changed) * asked};
+    const MoveLimits limits = move_limits(best_, trials_);
     const auto most_places =
         static_cast<std::size_t>(std::max(least_places, trials_.options.elements / elements_per_place));
     std::vector<Place> result;
@@ -174,7 +170,8 @@ bool Polishing::take(std::vector<std::optional<Trial>>& candidates)
 {
     bool taken = false;
     for (std::optional<Trial>& candidate : candidates) {
-        if (candidate && score(*candidate, price_) < score(best_, price_) - least_gain) {
+        if (candidate && keeps_count(*candidate, best_, trials_) &&
+            score(*candidate, price_) < score(best_, price_) - least_gain) {
             best_ = std::move(*candidate);
             taken = true;
         }
@@ -188,7 +185,8 @@ void Polishing::remember(std::vector<std::optional<Trial>>& candidates)
         return;
     }
     for (std::optional<Trial>& candidate : candidates) {
-        if (candidate && (!runner_up_ || score(*candidate, price_) < score(*runner_up_, price_))) {
+        if (candidate && keeps_count(*candidate, best_, trials_) &&
+            (!runner_up_ || score(*candidate, price_) < score(*runner_up_, price_))) {
             runner_up_ = std::move(candidate);
         }
     }

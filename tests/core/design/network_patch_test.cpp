@@ -168,5 +168,23 @@ TEST(Ease, TakesStretchOutOfANetworkWithAFlaw)
     EXPECT_NEAR(report.max_stretch, largest(*flawed), 1e-5); // it stays where the file puts it
 }
 
+// Several splits at once took an import of 150 elements to 159.
+TEST(NetworkMoves, KeepTheNumberOfElementsNearTheOneAskedFor)
+{
+    const Ball ball(2); // 120 elements asked for: 4.8 more or fewer may be
+    const auto with = [](std::size_t count) {
+        Trial trial;
+        trial.ratings.resize(count);
+        return trial;
+    };
+    EXPECT_TRUE(keeps_count(with(123), with(120), *ball.trials));
+    EXPECT_FALSE(keeps_count(with(126), with(120), *ball.trials));
+    EXPECT_FALSE(keeps_count(with(114), with(123), *ball.trials));
+    EXPECT_TRUE(keeps_count(with(129), with(132), *ball.trials)); // where it began farther off
+    EXPECT_TRUE(move_limits(with(120), *ball.trials).may_split);
+    EXPECT_FALSE(move_limits(with(123), *ball.trials).may_split);
+    EXPECT_TRUE(move_limits(with(123), *ball.trials).may_collapse);
+}
+
 } // namespace
 } // namespace rhombloom
