@@ -21,7 +21,7 @@ constexpr double path_width = 0.04;     // of the mean angle: where near a first
 constexpr double least_width = 1e-8;    // of the mean angle
 constexpr double narrower = 0.5;        // of the width from which the last steps did not lead on
 constexpr double nearly_arrived = 1e-4; // gradient; below, the last factor may be good for all that is left
-constexpr double arrived = 1e-5;        // gradient; below, it is known which hinges are concave
+constexpr double arrived = 1e-7;        // gradient; below, it is known which hinges are concave
 constexpr int followers = 8;            // steps with one factor
 constexpr double worthwhile = 0.25;     // share of the gradient that two of them may leave
 
@@ -134,22 +134,35 @@ bool follow_up(const NewtonSystem& system, const EmbeddingTerms& terms, Iterate 
     return true;
 }
 
+// Of two iterates with the same energy, but for roundoff, the one with the smaller gradient is better.
+bool is_better(const Iterate& a, const Iterate& b)
+{
+    constexpr double roundoff = 1e-12; // relative
+    const double difference = a.energy - b.energy;
+    const double noise = roundoff * std::abs(b.energy);
+    return difference < -noise || (difference < noise && a.gradient_norm() < b.gradient_norm());
+}
+
 // Steps until nothing is left to settle; the best iterate goes to \p iterate.
 void follow(Descent& descent, const NewtonSystem& system, const EmbeddingTerms& terms, Iterate& iterate,
             const MinimiseOptions& options, MinimiseResult& result)
 {
-    while (descent.now().gradient_norm() > arrived && !should_stop(descent.now(), options, result) &&
-           result.iterations < max_iterations && descent.step(result)) {
-        if (descent.now().energy < iterate.energy) {
+    const auto keep = [&] {
+        if (is_better(descent.now(), iterate)) {
             iterate = descent.now();
         }
+    };
+    while (descent.now().gradient_norm() > arrived && !should_stop(descent.now(), options, result) &&
+           result.iterations < max_iterations && descent.step(result)) {
+        keep();
         if (descent.now().gradient_norm() < nearly_arrived &&
             follow_up(system, terms, descent.now(), iterate, options.tolerance)) {
             break;
         }
     }
-    if (descent.now().energy < iterate.energy) {
-        iterate = descent.now();
+    keep(); // of what did not come to an end
+    if (result.reason == StopReason::Converged) {
+        result.reason = StopReason::Stalled; // unless the best one has
     }
     should_stop(iterate, options, result);
 }

@@ -116,15 +116,15 @@ bool LinearSolver::Factor::factor_panel(int f, int helpers)
     std::vector<double> inverse(shape.columns);
     for (int first = 0; first < shape.columns; first += columns_at_once) {
         const int last = std::min(first + columns_at_once, shape.columns);
-        const int top = strip_count(last);
-        if (!dense_kernels().factor(panel, shape.columns, first, last, top, inverse.data())) {
+        const int done = strip_count(last);
+        if (!dense_kernels().factor(panel, shape.columns, first, last, done, inverse.data())) {
             return false;
         }
-        const int below = shape.strips - top;
+        const int below = shape.strips - done;
         const int chunks = below < smallest_shared ? 1 : 2 * helpers;
         parallel_tasks(helpers, chunks, [&](int c) {
-            dense_kernels().factor_rows(panel, shape.columns, first, last, inverse.data(), top + below * c / chunks,
-                                        top + below * (c + 1) / chunks);
+            dense_kernels().factor_rows(panel, shape.columns, first, last, inverse.data(), done + below * c / chunks,
+                                        done + below * (c + 1) / chunks);
         });
     }
     return true;

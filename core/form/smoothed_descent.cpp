@@ -12,7 +12,8 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double close_enough = 0.02; // gradient with the width against the exact one
-constexpr int most_steps = 20;        // with one width
+constexpr double most_move = 0.3;     // la, in one step
+constexpr int most_steps = 8;         // with one width
 constexpr int portions = 16;          // of the hinges
 
 // A hinge that is stiff by a share that falls from 1 to 0 where its angle goes from minus to plus a few widths.
@@ -129,6 +130,22 @@ double newton_direction(NewtonSystem& system, const Iterate& smoothed, const std
     return 1;
 }
 
+// Away from a saddle the first steps are as small as the gradient is there, and the energy falls for much longer: twice
+// as far each time while it does.
+template <class At>
+void go_on(const At& at, const VectorXd& from, const VectorXd& direction, double share, Iterate& iterate)
+{
+    const double farthest =
+        most_move / std::sqrt(direction.reshaped(3, direction.size() / 3).colwise().squaredNorm().maxCoeff());
+    for (double next = 2 * share; next < farthest; next *= 2) {
+        Iterate trial = at(from + next * direction);
+        if (!(trial.energy < iterate.energy)) {
+            return;
+        }
+        iterate = std::move(trial);
+    }
+}
+
 } // namespace
 
 bool smoothed_descent(const EmbeddingTerms& terms, NewtonSystem& system, Iterate& now, double width,
@@ -144,8 +161,13 @@ bool smoothed_descent(const EmbeddingTerms& terms, NewtonSystem& system, Iterate
         VectorXd direction;
         damping = newton_direction(system, smoothed, energy.responses(), direction);
         const auto at = [&](VectorXd x) { return energy.at(iterate_at(terms, std::move(x))); };
-        if (line_search(at, smoothed, direction, {1, 0.3}) == 0) {
+        const VectorXd from = smoothed.x;
+        const double share = line_search(at, smoothed, direction, {1, most_move});
+        if (share == 0) {
             return k > 0;
+        }
+        if (damping > 0) {
+            go_on(at, from, direction, share, smoothed);
         }
         now = iterate_at(terms, std::move(smoothed.x));
         ++result.iterations;
