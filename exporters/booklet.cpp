@@ -89,18 +89,58 @@ std::string booklet_title(const Design& design, const BookletOptions& options)
     return design.title.empty() ? "Puzzle lamp" : design.title;
 }
 
+std::optional<char32_t> first_illegible(const PdfFont& font, const std::string& utf8)
+{
+    const std::vector<char32_t> letters = code_points(utf8);
+    const auto found = std::find_if(letters.begin(), letters.end(), [&](char32_t c) { return !font.writes(c); });
+    return found == letters.end() ? std::nullopt : std::optional(*found);
+}
+
 //! The openings whose purpose can be written: it is free text, and no reason to have no booklet.
 std::vector<NamedOpening> legible_openings(const PdfFont& font, const Design& design, const Replay& replay)
 {
     std::vector<NamedOpening> openings = named_openings(design, replay);
-    std::erase_if(openings, [&](const NamedOpening& opening) {
-        const std::vector<char32_t> letters = code_points(opening.purpose);
-        return std::any_of(letters.begin(), letters.end(), [&](char32_t c) { return font.glyph(c).id == 0; });
-    });
+    std::erase_if(openings,
+                  [&](const NamedOpening& opening) { return first_illegible(font, opening.purpose).has_value(); });
     return openings;
 }
 
+//! The name that an operation gives to a part; empty when it gives none.
+std::string given_name(const Operation& operation)
+{
+    const auto name = [](const auto& o) -> std::string {
+        if constexpr (requires { o.id; }) {
+            return o.id;
+        }
+        return "";
+    };
+    return std::visit(name, operation);
+}
+
+Expected<void> check_legible(const PdfFont& font, const std::string& path, const std::string& text)
+{
+    if (const auto c = first_illegible(font, text)) {
+        return refuse(
+            path + " has the character U+" + hexadecimal(*c) +
+            ", which the booklet cannot write: use Latin, Greek or Cyrillic letters, or leave the booklet out");
+    }
+    return {};
+}
+
 } // namespace
+
+Expected<void> check_booklet_names(const Design& design)
+{
+    const auto font = PdfFont::load(font_file);
+    if (!font) {
+        return tl::make_unexpected(font.error());
+    }
+    auto ok = check_legible(**font, "$.title", design.title);
+    for (std::size_t i = 0; ok && i < design.operations.size(); ++i) {
+        ok = check_legible(**font, "$.operations[" + std::to_string(i) + "].id", given_name(design.operations[i]));
+    }
+    return ok;
+}
 
 Expected<BookletFiles> booklet_files(const Design& design, const Replay& replay, const AssemblyPlan& plan,
                                      const BookletOptions& options)

@@ -29,9 +29,12 @@ struct BookletFiles
     BookletReport report;
 };
 
+//! \brief Refuses a title or a part's name that the booklet cannot write. Quick: to be asked before any long work.
+Expected<void> check_booklet_names(const Design& design);
+
 //! \brief Draw the assembly plan as a booklet, once page by page and once imposed for folding, and write the plan with
 //! the page, cell and camera of each step (DESIGN.md section 7).
-//! \details Refuses a title with characters that the booklet's font lacks. Dates in the files are SOURCE_DATE_EPOCH or
+//! \details Refuses names as check_booklet_names() does. Dates in the files are SOURCE_DATE_EPOCH or
 //! a fixed one: the same design gives the same bytes.
 Expected<BookletFiles> booklet_files(const Design& design, const Replay& replay, const AssemblyPlan& plan,
                                      const BookletOptions& options = {});

@@ -139,8 +139,16 @@ Expected<void> add_parts(Kit& kit, const Design& design, const Replay& replay, c
 
 } // namespace
 
+Expected<void> check_names(const Design& design, const KitOptions& options)
+{
+    return options.parts.contains(KitPart::Booklet) ? check_booklet_names(design) : Expected<void>{};
+}
+
 Expected<Kit> make_kit(const Design& design, const Replay& replay, const Piece& piece, const KitOptions& options)
 {
+    if (auto ok = check_names(design, options); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
     const Buildability build = buildability(replay, piece);
     if (!build.ok()) {
         return refuse(build.problems.front() + (build.problems.size() > 1 ? " (rhombloom check tells more)" : ""));

@@ -42,6 +42,9 @@ struct Kit
     std::vector<std::string> warnings;
 };
 
+//! \brief Refuses a design whose names the kit cannot write. Quick: to be asked before the design is replayed.
+Expected<void> check_names(const Design& design, const KitOptions& options);
+
 //! \brief Everything a person needs to make the design. Refuses a design that
 //! cannot be built, with the reason.
 Expected<Kit> make_kit(const Design& design, const Replay& replay, const Piece& piece, const KitOptions& options);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text.h"
+#include "exporters/code_points.h"
 #include "exporters/sha256.h"
 
 namespace rhombloom {
@@ -205,7 +206,7 @@ std::string manifest_json(const Summary& s, const FileSet& files)
 std::string readme_text(const Summary& s, const FileSet& files)
 {
     const std::string title = s.title.empty() ? "A rhombloom kit" : s.title;
-    std::string text = title + "\n" + std::string(std::min<std::size_t>(title.size(), 78), '=') + "\n\n";
+    std::string text = title + "\n" + std::string(std::min<std::size_t>(code_points(title).size(), 78), '=') + "\n\n";
     text += "In this folder\n" + contents(files) + "\n";
     if (s.options.parts.contains(KitPart::Cut)) {
         text += "What it takes\n" + amounts(s) + "\nWhat to do first\n" + first_steps(s) + "\n";

@@ -142,9 +142,9 @@ struct PdfCanvas::State
     PdfFont::Glyph glyph(char32_t c, const std::string& where)
     {
         const PdfFont::Glyph glyph = font.glyph(c);
-        if (page.problem.empty() && glyph.id == 0) {
-            page.problem = "the booklet's font has no character U+" + hexadecimal(c) + ", used in \"" + where +
-                           "\": write it with other characters";
+        if (page.problem.empty() && !font.writes(c)) {
+            page.problem = "the booklet's font cannot write the character U+" + hexadecimal(c) + ", used in \"" +
+                           where + "\": use Latin, Greek or Cyrillic letters";
         }
         page.characters.insert(c);
         return glyph;

@@ -59,6 +59,12 @@ PdfFont::Glyph PdfFont::glyph(char32_t character) const
     return {id, hb_font_get_glyph_h_advance(state_->font, id) / state_->em};
 }
 
+bool PdfFont::writes(char32_t character) const
+{
+    const hb_script_t script = hb_unicode_script(hb_unicode_funcs_get_default(), character);
+    return glyph(character).id != 0 && hb_script_get_horizontal_direction(script) != HB_DIRECTION_RTL;
+}
+
 PdfFont::Measures PdfFont::measures() const
 {
     Measures m;

@@ -35,6 +35,10 @@ public:
     PdfFont& operator=(const PdfFont&) = delete;
 
     Glyph glyph(char32_t character) const;
+
+    //! \brief Can it be drawn, one character after the other from the left? Not what the font lacks, nor Hebrew or
+    //! Arabic, which are written from the right.
+    bool writes(char32_t character) const;
     Measures measures() const;
 
     //! \brief The font file with only these characters and glyph 0; glyphs keep their numbers.

@@ -83,6 +83,10 @@ Expected<Kit> make(FabricateOptions& options, Progress& progress)
     if (auto ok = apply(*options.cut, options.kit.cut); !ok) {
         return tl::make_unexpected(ok.error());
     }
+    if (const auto ok = check_names(*design, options.kit); !ok) {
+        return tl::make_unexpected(
+            Error{options.design + ": " + ok.error().message + " (--only cut,preview,hooks)", ok.error().kind});
+    }
     const auto replayed = replay_design(options.design, *design, progress);
     if (!replayed) {
         return tl::make_unexpected(replayed.error());

@@ -157,8 +157,8 @@ Expected<Attempt> ranked_attempt(const Surface& target, const Element& element, 
         }
     }
     return nothing_fits(brush, request,
-                        "there is no candidate " + std::to_string(request.candidate) + ", only " +
-                            std::to_string(found) + " settle");
+                        "there is no candidate " + std::to_string(request.candidate) + ": choose " +
+                            (found > 1 ? "one from 0 to " + std::to_string(found - 1) : "0, the only one"));
 }
 
 //! Another period gains about as much as the last one: it must not overshoot by more than is left, nor go back.

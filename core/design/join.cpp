@@ -341,7 +341,7 @@ Expected<Grafted> apply_grafts(const Surface& surface, const std::vector<Graft>&
     }
     const std::vector<int> number = compact(result);
     if (result.lists.quads.empty()) {
-        return refuse("nothing is left of the surface");
+        return refuse("nothing is left of the surface: keep at least one element");
     }
     drop_unused_components(result.lists);
     if (auto ok = retag(result.lists, result.acute_first, first_side(surface, number, same)); !ok) {

@@ -101,6 +101,30 @@ Expected<json> parse_json(std::string_view text)
     return refuse((placed ? position(text, builder.byte()) + ": " : "") + builder.problem());
 }
 
+namespace {
+
+bool continues_character(char byte)
+{
+    return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
+}
+
+std::size_t characters(const std::string& utf8)
+{
+    return utf8.size() - std::count_if(utf8.begin(), utf8.end(), continues_character);
+}
+
+//! At most 60 bytes of it, and no half character.
+std::string beginning(const std::string& utf8)
+{
+    std::size_t end = std::min<std::size_t>(utf8.size(), 60);
+    while (end < utf8.size() && end > 0 && continues_character(utf8[end])) {
+        --end;
+    }
+    return utf8.substr(0, end) + (end < utf8.size() ? "..." : "");
+}
+
+} // namespace
+
 std::string describe(const json& value)
 {
     switch (value.type()) {
@@ -108,10 +132,8 @@ std::string describe(const json& value)
         return "an object";
     case json::value_t::array:
         return "a list of " + std::to_string(value.size());
-    case json::value_t::string: {
-        const auto& text = value.get_ref<const std::string&>();
-        return "the text \"" + text.substr(0, 60) + (text.size() > 60 ? "..." : "") + "\"";
-    }
+    case json::value_t::string:
+        return "the text \"" + beginning(value.get_ref<const std::string&>()) + "\"";
     case json::value_t::null:
         return "null";
     case json::value_t::boolean:
@@ -218,7 +240,7 @@ std::string ObjectReader::text(const std::string& key, const std::string& fallba
     if (value == nullptr) {
         return fallback;
     }
-    if (!value->is_string() || value->get_ref<const std::string&>().size() > max_length) {
+    if (!value->is_string() || characters(value->get_ref<const std::string&>()) > max_length) {
         fail(key, "is " + describe(*value) + ": expected a text of at most 200 characters");
         return fallback;
     }

@@ -322,8 +322,8 @@ Expected<Merged> merge(const Surface& a, const Surface& b, const Element& elemen
         return tl::make_unexpected(last);
     }
     if (index > 0) {
-        return refuse("there is no candidate " + std::to_string(index) + ": the merge has " + std::to_string(found) +
-                      ", numbered from 0");
+        return refuse("there is no candidate " + std::to_string(index) + ": choose " +
+                      (found > 1 ? "one from 0 to " + std::to_string(found - 1) : "0, the only one"));
     }
     return best->merged.embedding.converged ? std::move(best->merged) : repaired(std::move(*best), in).merged;
 }

@@ -78,8 +78,9 @@ Expected<void> check(const Element& element)
             return ok;
         }
     }
+    constexpr double round_off = 1e-9; // 243.3 is 1.5 times 162.2
     const double ratio = element.lb / element.la;
-    if (!(ratio > 1 && ratio <= 1.5)) {
+    if (!(ratio > 1 && ratio <= 1.5 + round_off)) {
         return refuse("lb_mm is " + to_text(element.lb) + " mm with la_mm " + to_text(element.la) +
                       " mm: the long side must be longer than the short one, up to 1.5 times (1.1 times is usual)");
     }

@@ -97,7 +97,8 @@ Expected<void> check_fans(const SurfaceLists& lists)
         }
         if (visited != turn[v].size()) {
             return refuse("vertex " + std::to_string(v) +
-                          " is touched by two separate fans of elements: no hook can hold there");
+                          " is touched by two separate fans of elements, which no hook can hold: open a neighbour too, "
+                          "or others");
         }
     }
     return {};

@@ -79,6 +79,23 @@ TEST(Booklet, RefusesCharactersThatItsFontLacks)
     EXPECT_NE(refused.error().message.find("U+30E9"), std::string::npos) << refused.error().message;
 }
 
+// Asked before the design is replayed.
+TEST(Booklet, RefusesNamesInScriptsItCannotWrite)
+{
+    Design design;
+    design.operations = {Place{"body", "ball-30"}};
+    EXPECT_TRUE(check_booklet_names(design).has_value());
+    for (const char* title : {"\u30E9\u30F3\u30D7", "Lamp \U0001F430", "\u05DE\u05E0", "\u0645\u0635", "two\nlines"}) {
+        design.title = title;
+        EXPECT_FALSE(check_booklet_names(design).has_value()) << title;
+    }
+    design.title = "Lamp";
+    design.operations.push_back(Place{"\u5934", "ball-30"});
+    const auto refused = check_booklet_names(design);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_NE(refused.error().message.find("$.operations[1].id has the character U+5934"), std::string::npos);
+}
+
 TEST(Booklet, SetsLatinGreekAndCyrillicTitles)
 {
     BookletOptions options;

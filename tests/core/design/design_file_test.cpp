@@ -82,6 +82,30 @@ TEST(DesignFile, RefusesImpossibleElementsWithTheKey)
     }
 }
 
+// 243.3 / 162.2 is a little more than 1.5 in a computer's numbers.
+TEST(DesignFile, TheLongSideMayBeExactlyOneAndAHalfTimesTheShort)
+{
+    for (const char* element : {R"({"la_mm": 162.2, "lb_mm": 243.3})", R"({"la_mm": 117.6, "lb_mm": 176.4})"}) {
+        EXPECT_EQ(refusal(with_element(element)), "accepted");
+    }
+    EXPECT_NE(refusal(with_element(R"({"la_mm": 162.2, "lb_mm": 243.4})")), "accepted");
+}
+
+// Characters, not bytes; and no half character is shown.
+TEST(DesignFile, TitlesHaveUpToTwoHundredCharactersOfAnyScript)
+{
+    const auto titled = [](int count) {
+        std::string title = "x";
+        for (int k = 1; k < count; ++k) {
+            title += "\u706F";
+        }
+        return refusal(R"({"rhombloom": 1, "title": ")" + title + R"(", )" + ball + "}");
+    };
+    EXPECT_EQ(titled(200), "accepted");
+    EXPECT_NE(titled(201).find("\u706F...\": expected a text of at most 200 characters"), std::string::npos)
+        << titled(201);
+}
+
 TEST(DesignFile, DeepNestingIsRefusedWithoutRecursion)
 {
     EXPECT_NE(refusal(std::string(1 << 22, '[')).find("nested"), std::string::npos);
