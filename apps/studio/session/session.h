@@ -38,6 +38,7 @@ struct Outcome
 //! \details Every change is carried out, then saved whole (temporary file, fsync, rename), and only then seen: a
 //! killed program leaves the last change that was reported done, or the one under way. Undo has no limit and covers
 //! every change, also of the symmetry or an earlier operation; after opening it takes back the operations one by one.
+//! What another program writes into the file is never overwritten unseen: the next change is Stale and shows it.
 class Session
 {
 public:
@@ -65,6 +66,10 @@ private:
 
     Session(std::string path, const Design& design);
     Outcome show(std::vector<DesignPointer> past, std::size_t cursor);
+    void publish(std::vector<DesignPointer> past, std::size_t cursor, ScenePointer scene);
+    std::vector<DesignPointer> followed_by(Design design) const;
+    std::optional<Outcome> take_foreign();
+    std::optional<Outcome> obstacle(long revision);
     Outcome refused(const std::string& message, int operation = -1) const;
 
     std::string path_;
@@ -72,8 +77,9 @@ private:
     mutable std::mutex mutex_; //!< of the snapshot pointer
     std::mutex changing_;      //!< one change at a time
     SnapshotPointer snapshot_;
-    std::vector<DesignPointer> past_; //!< all versions, oldest first
-    std::size_t cursor_ = 0;          //!< the present one
+    std::vector<DesignPointer> past_;    //!< all versions, oldest first
+    std::size_t cursor_ = 0;             //!< the present one
+    std::optional<std::string> written_; //!< the file as last read or written; nothing while there is none
 };
 
 //! \brief Read a document: a design, or one without operations as yet.

@@ -155,6 +155,43 @@ TEST_F(SessionTest, AFileThatCannotBeWrittenChangesNothing)
     EXPECT_EQ(session->snapshot()->scene->parts.size(), 1u);
 }
 
+TEST_F(SessionTest, WhatAnotherProgramWroteIsTakenAndUndoBringsBackTheVersionBefore)
+{
+    const auto session = open();
+    ASSERT_EQ(session->apply(1, ball("body")).status, Status::Done);
+    const std::string ours = bytes();
+    const std::string theirs = R"({"rhombloom": 1, "operations": [{"op": "place", "shape": "ball-12"}]})";
+    std::ofstream(file()) << theirs;
+    EXPECT_EQ(session->apply(2, ball("more", {500, 0, 0})).status, Status::Stale);
+    EXPECT_EQ(bytes(), theirs);
+    const SnapshotPointer now = session->snapshot();
+    EXPECT_EQ(now->scene->parts[0].surface.n_faces(), 12U);
+    EXPECT_EQ(session->undo(now->revision).status, Status::Done);
+    EXPECT_EQ(bytes(), ours);
+}
+
+TEST_F(SessionTest, AFileThatWasSpoiledElsewhereIsNeitherTakenNorOverwritten)
+{
+    const auto session = open();
+    ASSERT_EQ(session->apply(1, ball("body")).status, Status::Done);
+    std::ofstream(file()) << "{\"rhombloom\": 1, \"oper";
+    const Outcome outcome = session->apply(2, ball("more", {500, 0, 0}));
+    EXPECT_EQ(outcome.status, Status::Failed);
+    EXPECT_NE(outcome.message.find("changed by another program"), std::string::npos) << outcome.message;
+    EXPECT_EQ(bytes(), "{\"rhombloom\": 1, \"oper");
+    std::filesystem::remove(file());
+    EXPECT_EQ(session->apply(2, ball("more", {500, 0, 0})).status, Status::Done);
+    EXPECT_NE(bytes().find("more"), std::string::npos);
+}
+
+TEST_F(SessionTest, AFileThatIsOnlyFormattedElsewhereIsNoChange)
+{
+    const auto session = open();
+    ASSERT_EQ(session->apply(1, ball("body")).status, Status::Done);
+    std::ofstream(file(), std::ios::app) << "\n\n";
+    EXPECT_EQ(session->apply(2, ball("more", {500, 0, 0})).status, Status::Done);
+}
+
 TEST_F(SessionTest, AMalformedFileIsRefusedAndLeftAlone)
 {
     std::ofstream(file()) << "{\"rhombloom\": 1, \"operations\": 5}";

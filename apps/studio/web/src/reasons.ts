@@ -44,6 +44,8 @@ const german: [RegExp, string][] = [
   [/^unknown shape "(.*?)"/, 'Die Form „$1“ ist nicht bekannt; zum Beispiel gibt es ball-30 und polar-5x4.'],
   [/^there is nothing to (undo|do again)/, 'Da ist nichts mehr.'],
   [/^a kit is being made already/, 'Ein Bausatz wird schon gemacht.'],
+  [/^cannot write (.+): the step was not taken/, '$1 – lässt sich nicht schreiben: Der Schritt wurde nicht getan. Bitte beheben und noch einmal versuchen, oder eine Kopie sichern.'],
+  [/^(\S+) was changed by another program and cannot be used/, '$1 wurde von einem anderen Programm geändert und ist nicht zu gebrauchen: es wurde nichts geschrieben. Zum Weiterarbeiten die Datei beiseitelegen.'],
   [/^the document has changed in the meantime/, 'Das Dokument wurde inzwischen geändert.'],
 ];
 

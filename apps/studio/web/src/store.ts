@@ -69,7 +69,7 @@ export class Store {
       if (revision !== this.state.revision && !this.busy) {
         await this.load();
         this.tell();
-        this.say(t('The document was changed elsewhere; you see the newest version now.'));
+        this.say(t('The document was changed elsewhere; you see the newest version now. Undo brings back the one before.'));
       }
     } catch (problem) {
       if (!this.lost) this.explain(problem);
@@ -100,7 +100,7 @@ export class Store {
     } catch (problem) {
       if (problem instanceof api.Refusal && problem.status === 409) {
         await this.load();
-        this.say(t('The document was changed elsewhere; you see the newest version now.'));
+        this.say(t('The document was changed elsewhere; you see the newest version now. Undo brings back the one before.'));
       } else {
         this.explain(problem);
       }

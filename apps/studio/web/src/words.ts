@@ -22,7 +22,8 @@ const german: Record<string, string> = {
   'settling': 'setzt sich', 'working': 'rechnet', 'grown': 'gewachsen', 'Suggest': 'Vorschlag', 'Do it': 'So machen',
   'Looking for a pose that works': 'Suche eine Lage, die passt', 'No pose nearby works': 'Keine Lage in der Nähe passt',
   'move closer by': 'näher heran um', 'move apart by': 'auseinander um', 'move aside by': 'zur Seite um', 'turn by': 'drehen um',
-  'The document was changed elsewhere; you see the newest version now.': 'Das Dokument wurde anderswo geändert; dies ist die neueste Fassung.',
+  'The document was changed elsewhere; you see the newest version now. Undo brings back the one before.':
+    'Das Dokument wurde anderswo geändert; dies ist die neueste Fassung. Zurück holt die vorige wieder.',
   'The studio does not answer. Start it again: everything up to the last step is saved.': 'Das Studio antwortet nicht. Bitte neu starten: alles bis zum letzten Schritt ist gesichert.',
   'This address belongs to an earlier run of the studio. Open the address that it printed.': 'Diese Adresse gehört zu einem früheren Lauf. Bitte die neu ausgegebene Adresse öffnen.',
   'Untitled': 'Ohne Titel', 'Title': 'Titel', 'Move': 'Bewegen', 'Turn': 'Drehen', 'Handles': 'Griffe', 'Shape': 'Form', 'Brush': 'Pinsel',
