@@ -1,50 +1,13 @@
 #include <algorithm>
-#include <array>
-#include <optional>
 
 #include "exporters/booklet_pages.h"
+#include "exporters/hanging.h"
 
 namespace rhombloom {
 
 namespace {
 
 constexpr std::size_t most_openings = 6; // told by the elements round them
-
-//! Where the plane of a triangle is at (x, y), or nothing beside it.
-std::optional<double> height_at(const std::array<Vec3, 3>& t, const Vec3& at)
-{
-    const auto turn = [](const Vec3& a, const Vec3& b, const Vec3& c) {
-        return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-    };
-    const double area = turn(t[0], t[1], t[2]);
-    const double u = turn(at, t[1], t[2]) / area;
-    const double v = turn(t[0], at, t[2]) / area;
-    const bool inside = area != 0 && u >= 0 && v >= 0 && u + v <= 1;
-    return inside ? std::optional(u * t[0].z() + v * t[1].z() + (1 - u - v) * t[2].z()) : std::nullopt;
-}
-
-//! The highest point of the model above its centre of mass: it hangs there as it stands. Where there is nothing above
-//! the centre: the highest of all.
-Vec3 hanging_point(const Surface& surface)
-{
-    Vec3 centre = Vec3::Zero();
-    Vec3 highest = Vec3::Constant(-1e300);
-    for (const Face f : surface.faces()) {
-        centre += element_centre(surface, f) / static_cast<double>(surface.n_faces());
-    }
-    std::optional<double> top;
-    for (const Face f : surface.faces()) {
-        const Quad q = quad(surface, f);
-        const auto corner = [&](int k) -> Vec3 { return surface.point(Vertex(q[k])); };
-        for (const auto& t :
-             {std::array{corner(0), corner(1), corner(2)}, std::array{corner(0), corner(2), corner(3)}}) {
-            const std::optional<double> z = height_at(t, centre);
-            top = z && (!top || *z > *top) ? z : top;
-            highest = t[0].z() > highest.z() ? t[0] : highest;
-        }
-    }
-    return top && *top > centre.z() ? Vec3(centre.x(), centre.y(), *top) : highest;
-}
 
 using Names = std::vector<int>;
 
@@ -57,8 +20,12 @@ std::string named(const std::vector<int>& faces, const Names& names)
     return listed(std::move(numbers));
 }
 
-std::string hanging_words(const BookletSources& sources)
+std::string hanging_words(const BookletSources& sources, std::size_t cords)
 {
+    if (cords > 1) {
+        return "To hang it, lead a cord through a hole near each of the " + std::string(cords > 2 ? "three" : "two") +
+               " places shown, and join them above its middle: it is open there. ";
+    }
     const bool held = std::any_of(sources.openings.begin(), sources.openings.end(), [](const NamedOpening& opening) {
         return opening.purpose.find("holder") != std::string::npos;
     });
@@ -132,6 +99,40 @@ void draw_openings(PdfCanvas& canvas, const BookletSources& sources, const Camer
     }
 }
 
+//! A cord to the highest point, or several that meet above the model: those in front of its middle, or the others.
+struct Cords
+{
+    Camera camera;
+    Vec2 centre; //!< of the figure
+    Vec3 middle; //!< of the model
+    std::vector<Vec3> ends;
+
+    Vec2 at(const Vec3& p) const { return centre + project(camera, p); }
+
+    Vec2 knot() const
+    {
+        double highest = at(ends.front()).y();
+        for (const Vec3& end : ends) {
+            highest = std::min(highest, at(end).y());
+        }
+        const double top = page_margin + 44;
+        return ends.size() == 1 ? at(ends.front()) : Vec2(at(middle).x(), top + (highest - top) / 3);
+    }
+
+    void draw(PdfCanvas& canvas, bool in_front) const
+    {
+        const Line line{2.2, 0x404040, 0};
+        if (!in_front) {
+            canvas.stroke({Vec2(knot().x(), page_margin + 44), knot()}, line);
+        }
+        for (const Vec3& end : ends) {
+            if (ends.size() > 1 && (depth(camera, end) > depth(camera, middle)) == in_front) {
+                canvas.stroke({knot(), at(end)}, line);
+            }
+        }
+    }
+};
+
 } // namespace
 
 void draw_last_page(PdfCanvas& canvas, const BookletSources& sources)
@@ -146,17 +147,18 @@ void draw_last_page(PdfCanvas& canvas, const BookletSources& sources)
     const double width = paper.width - 2 * page_margin;
     const Vec2 centre(paper.width / 2, paper.height * 0.47);
     const Vec2 half(width / 2, paper.height * 0.29);
+    const Surface& surface = sources.replay.surface;
+    const Cords cords{model_camera(sources, view, half), centre, mass_centre(surface), hanging_points(surface)};
     canvas.figure("The finished model, hung from its top.", [&] {
-        const Camera camera = model_camera(sources, view, half);
-        const Vec2 top = centre + project(camera, hanging_point(sources.replay.surface));
-        canvas.stroke({Vec2(top.x(), page_margin + 44), top}, {2.2, 0x404040, 0}); // the cord
+        cords.draw(canvas, false);
         draw_model(canvas, sources, centre, half, view, hatch ? sources.plan.steps.back().element : -1);
-        canvas.shifted(centre, [&] { draw_openings(canvas, sources, camera); });
+        cords.draw(canvas, true);
+        canvas.shifted(centre, [&] { draw_openings(canvas, sources, cords.camera); });
     });
     const Names names =
         element_names(sources.plan, sources.replay.surface.n_faces(), static_cast<int>(sources.plan.steps.size()));
-    const std::string words =
-        hanging_words(sources) + (hatch ? hatch_words(sources, names) : "") + opening_words(sources, names);
+    const std::string words = hanging_words(sources, cords.ends.size()) + (hatch ? hatch_words(sources, names) : "") +
+                              opening_words(sources, names);
     canvas.tagged(
         "P", [&] { canvas.paragraph(words, Vec2(page_margin, paper.height - page_margin - 76), width, {11}, 15); });
 }

@@ -135,8 +135,8 @@ Expected<SheetSize> parse_sheet(std::string_view text)
             return SheetSize{*width * unit, *height * unit};
         }
     }
-    return refuse("the sheet \"" + std::string(text.substr(0, 40)) +
-                  "\" is no size: expected WIDTHxHEIGHT in mm from 50 to 5000 each, e.g. 600x400");
+    return refuse("\"" + std::string(text.substr(0, 40)) +
+                  "\" is no size of a sheet: expected WIDTHxHEIGHT in mm from 50 to 5000 each, e.g. 600x400");
 }
 
 Expected<ColourPreset> parse_colours(std::string_view name)

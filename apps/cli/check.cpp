@@ -16,12 +16,13 @@ std::string angle(double value)
 
 std::string as_text(const Buildability& report)
 {
-    std::string text = std::to_string(report.elements) + " elements, " + std::to_string(report.flipped) +
-                       " of them flipped; " + std::to_string(report.boundary_loops) + " openings\n";
+    std::string text = std::to_string(report.elements) + (report.elements == 1 ? " element, " : " elements, ") +
+                       std::to_string(report.flipped) + " of them flipped; " + std::to_string(report.boundary_loops) +
+                       (report.boundary_loops == 1 ? " opening\n" : " openings\n");
     text += "angular defects " + angle(report.defects.min) + " to " + angle(report.defects.max) + " degrees\n";
     text += "largest stretch " + to_fixed(100 * report.embedding.max_stretch, 3) + " %, energy " +
-            to_fixed(report.embedding.energy, 3) + " mm, largest gradient " + to_text(report.embedding.gradient_norm) +
-            "\n";
+            to_fixed(report.embedding.energy, 3) +
+            (report.embedding.converged ? " mm, settled\n" : " mm, not settled\n");
     for (const HookCheck& check : report.hooks) {
         text += (check.ok ? "ok   " : "FAIL ") + check.id + (check.id.size() < 3 ? "  " : " ") + check.sentence + "\n";
     }

@@ -100,7 +100,8 @@ std::shared_ptr<CutArguments> add_cut_options(CLI::App& command)
     add("--spacing", a->spacing, "between finished edges, mm (default 2)");
     add("--margin", a->margin, "free along the sheet's edges, mm (default 3, or the machine's)");
     add("--spares", a->spares, "extra pieces, e.g. 3%");
-    add("--colours", a->colours, "layer colours: lightburn, trotec, k40, ponoko, glowforge, boxes");
+    add("--colours", a->colours,
+        "layer colours: lightburn, trotec, uls, epilog, k40, ponoko, glowforge, xtool, boxes (default: the machine's)");
     add("--stroke", a->stroke, "width of lines in SVG, mm (default 0.1; 0.01 with the colours of trotec and ponoko)")
         ->check(in_range(0.001, 2))
         ->option_text("MM");

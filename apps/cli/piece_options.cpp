@@ -21,8 +21,9 @@ std::shared_ptr<PieceOptions> add_piece_options(CLI::App& command)
     const auto& table = parameter_table();
     options->values.resize(table.size());
     options->set.resize(table.size(), nullptr);
-    options->material_set =
-        command.add_option("--material", options->material, "what is cut, e.g. pp-0.5 (default: by the thickness)");
+    options->material_set = command.add_option(
+        "--material", options->material,
+        "what is cut: pp-0.5, card-300, ... (an unknown name lists them; default: by the thickness)");
     command
         .add_option("--max-stretch", options->max_stretch,
                     "of an element, for a sheet that gives more than the usual 1 % (percent, 0.1 to 5)")
