@@ -41,39 +41,41 @@ std::optional<double> highest_at(const Surface& surface, const Vec3& at)
     return top;
 }
 
-std::vector<Vec3> vertices_from_the_top(const Surface& surface)
+Vec3 highest_vertex(const Surface& surface)
 {
-    std::vector<Vec3> points;
+    Vec3 highest = surface.point(Vertex(0));
     for (const Vertex v : surface.vertices()) {
-        points.push_back(surface.point(v));
+        highest = surface.point(v).z() > highest.z() ? Vec3(surface.point(v)) : highest;
     }
-    std::stable_sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) { return a.z() > b.z(); });
-    return points;
+    return highest;
 }
 
-//! The third of the circle round \p centre that \p p lies in; the first lies about \p ahead.
-int third(const Vec3& centre, const Vec3& ahead, const Vec3& p)
+//! How well a cord holds at \p p, of those that hold toward \p angle: high up, and little aside. 0: not at all.
+double hold(const Vec3& centre, double angle, const Vec3& p)
 {
-    const auto angle = [&](const Vec3& q) { return std::atan2(q.y() - centre.y(), q.x() - centre.x()); };
-    const double turned = angle(p) - angle(ahead) + pi / 3;
-    return static_cast<int>(std::floor((turned - two_pi * std::floor(turned / two_pi)) / (two_pi / 3))) % 3;
+    const Vec3 arm = p - centre;
+    const double aside = std::remainder(std::atan2(arm.y(), arm.x()) - angle, two_pi);
+    return std::abs(aside) < pi / 3 ? std::max(0.0, arm.z()) * std::cos(aside) : 0;
 }
 
 std::vector<Vec3> points_round(const Surface& surface, const Vec3& centre)
 {
-    const std::vector<Vec3> points = vertices_from_the_top(surface);
-    std::array<std::optional<Vec3>, 3> highest;
-    for (const Vec3& p : points) {
-        std::optional<Vec3>& found = highest[third(centre, points.front(), p)];
-        found = found ? found : p;
-    }
+    const Vec3 ahead = highest_vertex(surface);
+    const double first = std::atan2(ahead.y() - centre.y(), ahead.x() - centre.x());
     std::vector<Vec3> result;
-    for (const auto& p : highest) {
-        if (p && p->z() >= centre.z()) {
-            result.push_back(*p);
+    for (int k = 0; k < 3; ++k) {
+        Vec3 best = ahead;
+        double most = 0;
+        for (const Vertex v : surface.vertices()) {
+            const double holds = hold(centre, first + k * two_pi / 3, surface.point(v));
+            best = holds > most ? Vec3(surface.point(v)) : best;
+            most = std::max(most, holds);
+        }
+        if (most > 0) {
+            result.push_back(best);
         }
     }
-    return result;
+    return result.empty() ? std::vector{ahead} : result;
 }
 
 } // namespace

@@ -9,7 +9,7 @@ Vec3 mass_centre(const Surface& surface);
 
 //! \brief Where cords are fixed so that the model hangs as it stands, z up.
 //! \details The highest point above the centre of mass. Where nothing is above it (a tube, a ring, a bowl): up to three
-//! vertices round the centre, the highest of each third.
+//! vertices high up round the centre, a third of the way from each other.
 std::vector<Vec3> hanging_points(const Surface& surface);
 
 } // namespace rhombloom
