@@ -198,7 +198,7 @@ void draw_parts(PdfCanvas& canvas, const BookletSources& sources, const BookletO
     y = item(canvas, sources, y,
              sheet_words(options.material, sources.element.thickness) +
                  (options.sheets > 0 ? ", cut from " + plural(options.sheets, "sheet") : ""));
-    y = item(canvas, sources, y, "A table, good light and " + duration(score.minutes));
+    y = item(canvas, sources, y, "A table, good light and " + duration(score.minutes, 5));
     y = item(canvas, sources, y, "A few small clips or some tape hold the rim while you work");
     y = item(canvas, sources, y, "No glue and no tools: try the joint on the next page with two elements first");
     const double width = 0.42 * text_width(sources);

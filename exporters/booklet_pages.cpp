@@ -7,18 +7,6 @@
 
 namespace rhombloom {
 
-std::string plural(int count, const std::string& noun)
-{
-    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
-std::string duration(double minutes)
-{
-    const int rounded = static_cast<int>(std::ceil(minutes / 5) * 5);
-    return rounded < 90 ? "about " + std::to_string(rounded) + " minutes"
-                        : "about " + to_fixed(std::round(rounded / 30.0) / 2, 1) + " hours";
-}
-
 void draw_heading(PdfCanvas& canvas, const BookletSources& sources, const std::string& text)
 {
     const double size = canvas.fitting_size(text, sources.layout.paper.width - 2 * page_margin, 24);
@@ -107,7 +95,7 @@ void draw_cover(PdfCanvas& canvas, const BookletSources& sources, const std::str
     });
     std::string facts = plural(static_cast<int>(sources.replay.surface.n_faces()), "element");
     facts += options.sheets > 0 ? "   \u00B7   " + plural(options.sheets, "sheet") : "";
-    facts += "   \u00B7   " + duration(score.minutes);
+    facts += "   \u00B7   " + duration(score.minutes, 5);
     canvas.tagged("P", [&] {
         canvas.text(facts, Vec2(page_margin, paper.height - page_margin - 14), {15, 0x202020, Align::Left, 0});
     });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "exporters/booklet_steps.h"
+#include "exporters/words.h"
 
 namespace rhombloom {
 
@@ -15,12 +16,6 @@ void draw_chapter(PdfCanvas& canvas, const BookletSources& sources, int chapter)
 void draw_last_page(PdfCanvas& canvas, const BookletSources& sources);
 
 void draw_heading(PdfCanvas& canvas, const BookletSources& sources, const std::string& text);
-
-//! \brief "about 30 minutes", "about 2.5 hours".
-std::string duration(double minutes);
-
-//! \brief "1 element", "30 elements".
-std::string plural(int count, const std::string& noun);
 
 //! \brief Number of the page, chapter and progress bar at the foot of a step page.
 void draw_page_frame(PdfCanvas& canvas, const BookletSources& sources, int chapter, int first_step, int last_step,

@@ -152,6 +152,13 @@ HookCheck tips_apart(const HookParameters& p)
                   "make the finger width or the finger length smaller, or la larger"});
 }
 
+//! The longest lb, in tenths of a millimetre, with which the long side is less than \p limit times its chord.
+double bowing_lb(const HookParameters& p, double limit)
+{
+    const double most = p.lb - bowed_length(p) + limit * bowed_chord(p);
+    return std::ceil(10 * most - 1) / 10;
+}
+
 HookCheck bow_check(const HookParameters& p)
 {
     const double limit = 1.5;
@@ -164,7 +171,10 @@ HookCheck bow_check(const HookParameters& p)
     }
     return entry("C9", "bow", "",
                  {ok, ratio, limit, fact + " (under 1.5 needed)",
-                  p.la < p.lb ? "make lb shorter or the hole radius smaller" : "make lb longer than la"});
+                  ok ? ""
+                  : p.la >= p.lb
+                      ? "make lb longer than la"
+                      : "make lb shorter (" + mm(bowing_lb(p, limit)) + " would do) or the hole radius smaller"});
 }
 
 //! Bending strains, 1 = 100 %: bowed, one end inserted beside its slit, finger hugging the bow.

@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "exporters/code_points.h"
 #include "exporters/sha256.h"
+#include "exporters/words.h"
 
 namespace rhombloom {
 
@@ -18,11 +19,6 @@ using nlohmann::ordered_json;
 double rounded(double value, double unit)
 {
     return std::round(value / unit) * unit;
-}
-
-std::string plural(long count, const std::string& word)
-{
-    return std::to_string(count) + " " + word + (count == 1 ? "" : "s");
 }
 
 //! One paragraph in lines of at most 78 characters; the first begins with \p head, the others stand under its text.
@@ -100,13 +96,13 @@ std::string amounts(const Summary& s)
     text += "  " + plural(cut.sheets, "sheet") + " of " + to_fixed(s.options.cut.sheet_width, 1) + " x " +
             to_fixed(s.options.cut.sheet_height, 1) + " mm, " + s.piece.material.title + ", " +
             to_fixed(100 * cut.utilisation, 0) + " % used\n";
-    text += "  " + to_fixed(cut.cut_length_m, 1) + " m to cut, about " + to_fixed(std::ceil(cut.minutes), 0) +
-            " minutes; the parts weigh " + to_fixed(cut.mass_g, 0) + " g\n";
+    text += "  " + to_fixed(cut.cut_length_m, 1) + " m to cut, " + duration(cut.minutes, 1) + "; the parts weigh " +
+            to_fixed(cut.mass_g, 0) + " g\n";
     text += wrapped("(assumed, not measured: " + cut.speeds_text + ")", "  ");
     if (cut.cost) {
         text += "  cost " + to_fixed(*cut.cost, 2) + " at the prices given\n";
     }
-    return text + "  about " + to_fixed(std::ceil(s.scorecard.minutes), 0) + " minutes to assemble\n";
+    return text + "  " + duration(s.scorecard.minutes, 5) + " to assemble\n";
 }
 
 std::string first_steps(const Summary& s)

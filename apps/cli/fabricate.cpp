@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "exporters/manifest.h"
 #include "exporters/target_file.h"
+#include "exporters/words.h"
 
 namespace rhombloom::cli {
 
@@ -30,8 +31,7 @@ std::string summary(const Kit& kit, const std::string& folder)
     if (kit.cut.sheets > 0) {
         text += ": " + std::to_string(kit.cut.elements + kit.cut.spares) + " elements on " +
                 std::to_string(kit.cut.sheets) + (kit.cut.sheets == 1 ? " sheet" : " sheets") + ", " +
-                to_fixed(kit.cut.cut_length_m, 1) + " m to cut, about " + to_fixed(std::ceil(kit.cut.minutes), 0) +
-                " minutes";
+                to_fixed(kit.cut.cut_length_m, 1) + " m to cut, " + duration(kit.cut.minutes, 1);
     }
     text += ". Start with README.txt.\n";
     for (const std::string& warning : kit.warnings) {

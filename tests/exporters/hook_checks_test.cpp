@@ -143,6 +143,17 @@ TEST(HookChecks, ABrokenParameterFailsItsOwnCheckAndSaysWhatToChange)
     }
 }
 
+TEST(HookChecks, TheLongSideThatC9NamesIsTheLongestThatPasses)
+{
+    const Element wide{.la = 200, .lb = 300, .alpha = radians(50), .thickness = 0.8};
+    const std::string sentence = checked(with({}, wide), "C9").sentence;
+    const std::string words = "make lb shorter (";
+    ASSERT_NE(sentence.find(words), std::string::npos) << sentence;
+    const double lb = std::stod(sentence.substr(sentence.find(words) + words.size()));
+    EXPECT_TRUE(checked(with({{"lb", lb}}, wide), "C9").ok) << lb;
+    EXPECT_FALSE(checked(with({{"lb", lb + 0.2}}, wide), "C9").ok) << lb;
+}
+
 TEST(HookChecks, TheFingerLengthThatC10NamesIsTheLeastThatBears)
 {
     const Element thick{.la = 81.1, .lb = 99.2, .alpha = radians(59.2), .thickness = 0.57};
