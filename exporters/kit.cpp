@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "core/building/bulb_hatch.h"
+#include "core/design/mesh_import/import_warning.h"
 #include "exporters/booklet.h"
 #include "exporters/manifest.h"
 #include "exporters/preview.h"
@@ -26,6 +27,17 @@ void tell(const KitOptions& options, const std::string& what)
     const std::scoped_lock lock(one_at_a_time);
     if (options.progress) {
         options.progress(what);
+    }
+}
+
+void warn_of_imports(const Design& design, const Element& element, Kit& kit)
+{
+    for (const Operation& operation : design.operations) {
+        const auto* import = std::get_if<Import>(&operation);
+        const std::string far = import != nullptr ? distance_warning(*import, element) : std::string();
+        if (!far.empty()) {
+            kit.warnings.push_back(far);
+        }
     }
 }
 
@@ -155,6 +167,7 @@ Expected<Kit> make_kit(const Design& design, const Replay& replay, const Piece& 
     }
     Kit kit;
     kit.warnings = build.warnings;
+    warn_of_imports(design, piece.element, kit);
     tell(options, "assembly plan");
     const AssemblyPlan plan = design_plan(design, replay, piece.element, options.order);
     kit.scorecard = plan.scorecard;

@@ -88,6 +88,9 @@ std::string as_text(const ImportedMesh& made, const std::string& design)
     text += "largest stretch " + to_fixed(100 * r.embedding.max_stretch, 2) + " %, angular defects " +
             to_fixed(degrees(r.defects.min), 1) + " to " + to_fixed(degrees(r.defects.max), 1) + " degrees, " +
             std::to_string(r.hard_nodes) + " nodes hard to hook\n";
+    for (const std::string& warning : r.warnings) {
+        text += "warning: " + warning + "\n";
+    }
     if (const std::string problem = build_problem(r); !problem.empty()) {
         text += "problem: " + problem + "\n";
     }
@@ -119,6 +122,7 @@ std::string as_json(const ImportedMesh& made)
                                          {"scale", r.scale},
                                          {"shift_mm", {r.shift.x(), r.shift.y(), r.shift.z()}},
                                          {"repairs", r.repairs},
+                                         {"warnings", r.warnings},
                                          {"problem", build_problem(r)}};
     return root.dump(1) + "\n";
 }

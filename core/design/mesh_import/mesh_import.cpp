@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/design/mesh_import/import_warning.h"
 #include "core/design/mesh_import/mesh_repair.h"
 #include "core/design/mesh_import/network.h"
 #include "core/design/mesh_import/network_crossings.h"
@@ -165,6 +166,9 @@ Expected<ImportedMesh> import_mesh(const TriangleMesh& mesh, const ImportOptions
     fill_report(found->surface, *found, result);
     result.operation = import_of(found->surface, options.id);
     result.operation.distance = stored(result.report.distance);
+    if (const std::string far = distance_warning(result.operation, result.element); !far.empty()) {
+        result.report.warnings.push_back(far);
+    }
     return result;
 }
 

@@ -43,8 +43,9 @@ struct ImportReport
     int hard_nodes = 0;   //!< where more than five acute corners meet, or a defect is within 10 degrees of its limit
     bool crosses = false; //!< elements cross each other
     std::vector<std::string> repairs;
-    double scale = 1;          //!< the target in mm is scale * file coordinates + shift
-    Vec3 shift = Vec3::Zero(); //!< mm
+    std::vector<std::string> warnings; //!< what the maker should know, with the remedy
+    double scale = 1;                  //!< the target in mm is scale * file coordinates + shift
+    Vec3 shift = Vec3::Zero();         //!< mm
 };
 
 struct ImportedMesh

@@ -3,6 +3,7 @@
 #include "core/design/design_file.h"
 #include "core/design/history.h"
 #include "core/design/mesh_import/curvature_match.h"
+#include "core/design/mesh_import/import_warning.h"
 #include "core/design/mesh_import/join_network.h"
 #include "core/design/mesh_import/mesh_decimate.h"
 #include "core/design/mesh_import/mesh_import.h"
@@ -254,6 +255,19 @@ TEST(ImportMesh, KeepsTheDistanceInTheDesignFile)
     ASSERT_TRUE(distance);
     EXPECT_NEAR(distance->to_target_rms, made.report.distance.to_target.rms, 1e-3);
     EXPECT_NEAR(distance->from_target_max, made.report.distance.from_target.max, 1e-3);
+}
+
+TEST(ImportMesh, WarnsWhenTheElementsEndFarFromTheTarget)
+{
+    const ImportedMesh& made = same_ball();
+    EXPECT_TRUE(made.report.warnings.empty());
+    Import far = made.operation;
+    far.distance->from_target_rms = 0.71 * made.element.la;
+    const std::string warning = distance_warning(far, made.element);
+    EXPECT_NE(warning.find("0.71 la"), std::string::npos) << warning;
+    EXPECT_NE(warning.find("--elements " + std::to_string(4 * far.quads.size())), std::string::npos) << warning;
+    far.distance.reset();
+    EXPECT_TRUE(distance_warning(far, made.element).empty());
 }
 
 TEST(NetworkMoves, AFlipReplacesAnElementASplitAddsThreeACollapseTakesThreeATurnIsUndone)
