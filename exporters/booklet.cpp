@@ -120,9 +120,8 @@ std::string given_name(const Operation& operation)
 Expected<void> check_legible(const PdfFont& font, const std::string& path, const std::string& text)
 {
     if (const auto c = first_illegible(font, text)) {
-        return refuse(
-            path + " has the character U+" + hexadecimal(*c) +
-            ", which the booklet cannot write: use Latin, Greek or Cyrillic letters, or leave the booklet out");
+        return refuse(path + " has the character U+" + hexadecimal(*c) +
+                      ", which the booklet cannot write: use Latin, Greek or Cyrillic letters");
     }
     return {};
 }

@@ -85,7 +85,8 @@ Expected<Kit> make(FabricateOptions& options, Progress& progress)
     }
     if (const auto ok = check_names(*design, options.kit); !ok) {
         return tl::make_unexpected(
-            Error{options.design + ": " + ok.error().message + " (--only cut,preview,hooks)", ok.error().kind});
+            Error{options.design + ": " + ok.error().message + ", or leave the booklet out (--only cut,preview,hooks)",
+                  ok.error().kind});
     }
     const auto replayed = replay_design(options.design, *design, progress);
     if (!replayed) {

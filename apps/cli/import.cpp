@@ -220,7 +220,7 @@ Expected<int> run_import(const ImportArguments& arguments)
     if (!made) {
         return tl::make_unexpected(made.error());
     }
-    if (auto ok = store(*made, arguments.output, std::filesystem::path(arguments.mesh).stem().string()); !ok) {
+    if (auto ok = store(*made, arguments.output, title_of(std::filesystem::path(arguments.mesh).stem().string())); !ok) {
         return tl::make_unexpected(ok.error());
     }
     const bool good = build_problem(made->report).empty();

@@ -150,4 +150,23 @@ std::string write_design(const Design& design)
     return tidy(root, "") + "\n";
 }
 
+std::string title_of(const std::string& file_stem)
+{
+    constexpr int most_characters = 80;
+    // Written and read again, what is no UTF-8 has become U+FFFD.
+    const auto replace = json::error_handler_t::replace;
+    const std::string formed = json::parse(json(file_stem).dump(-1, ' ', false, replace)).get<std::string>();
+    std::string title;
+    int characters = 0;
+    for (const char c : formed) {
+        const auto byte = static_cast<unsigned char>(c);
+        characters += (byte & 0xC0U) == 0x80U ? 0 : 1;
+        if (characters > most_characters) {
+            break;
+        }
+        title += byte < 0x20 || byte == 0x7F ? ' ' : c;
+    }
+    return title;
+}
+
 } // namespace rhombloom

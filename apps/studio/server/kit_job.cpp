@@ -1,7 +1,10 @@
 #include "apps/studio/server/kit_job.h"
 
+#include <filesystem>
+
 #include "apps/studio/server/answers.h"
 #include "apps/studio/server/guard.h"
+#include "exporters/target_file.h"
 
 namespace rhombloom::studio {
 
@@ -49,7 +52,12 @@ Expected<KitJob::Wish> KitJob::read(const Session& session, const Request& reque
     }
     ObjectReader body(*json, "$");
     const SnapshotPointer snapshot = session.snapshot();
-    Wish wish{snapshot->design, snapshot->revision, body.text("material", ""), {}, body.number("kerf_mm", -1, -1, 1)};
+    Wish wish{snapshot->design,
+              snapshot->revision,
+              body.text("material", ""),
+              {},
+              body.number("kerf_mm", -1, -1, 1),
+              std::filesystem::path(session.path()).parent_path().string()};
     const std::string machine = body.text("machine", "");
     const std::string paper = body.text("paper", "a4");
     body.require("revision");
@@ -97,27 +105,45 @@ void KitJob::tell(const std::string& what)
     doing_ = what;
 }
 
+Expected<Kit> KitJob::made(const Wish& wish)
+{
+    KitOptions options = wish.options;
+    if (auto ok = check_names(wish.design, options); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    ReplayOptions replaying;
+    replaying.progress = [&](int number, int count, const std::string& what) {
+        tell(std::to_string(number + 1) + "/" + std::to_string(count) + " " + what);
+        return true;
+    };
+    const auto replayed = replay(wish.design, replaying);
+    if (!replayed) {
+        return tl::make_unexpected(replayed.error());
+    }
+    const auto piece = make_piece(
+        wish.design.element, wish.material.empty() ? std::nullopt : std::optional(wish.material),
+        wish.kerf < 0 ? std::vector<ParameterSetting>{} : std::vector<ParameterSetting>{{"kerf", wish.kerf}});
+    if (!piece) {
+        return tl::make_unexpected(piece.error());
+    }
+    auto target = load_targets(wish.design, wish.folder);
+    if (target) {
+        options.target = std::move(*target);
+    }
+    options.program_version = version_;
+    options.progress = [&](const std::string& what) { tell(what); };
+    auto kit = make_kit(wish.design, *replayed, *piece, options);
+    if (kit && !target) { // a design opened from elsewhere comes without it
+        kit->warnings.push_back(target.error().message + ": the preview is without its target");
+    }
+    return kit;
+}
+
 void KitJob::work(const Wish& wish)
 {
     Expected<Kit> kit = machine_failure("the kit could not be made");
     try {
-        ReplayOptions replaying;
-        replaying.progress = [&](int number, int count, const std::string& what) {
-            tell(std::to_string(number + 1) + "/" + std::to_string(count) + " " + what);
-            return true;
-        };
-        const auto replayed = replay(wish.design, replaying);
-        const auto piece = make_piece(
-            wish.design.element, wish.material.empty() ? std::nullopt : std::optional(wish.material),
-            wish.kerf < 0 ? std::vector<ParameterSetting>{} : std::vector<ParameterSetting>{{"kerf", wish.kerf}});
-        if (!replayed || !piece) {
-            kit = tl::make_unexpected(replayed ? piece.error() : replayed.error());
-        } else {
-            KitOptions options = wish.options;
-            options.program_version = version_;
-            options.progress = [&](const std::string& what) { tell(what); };
-            kit = make_kit(wish.design, *replayed, *piece, options);
-        }
+        kit = made(wish);
     } catch (const std::exception& problem) {
         kit = machine_failure(std::string("a bug stopped the kit: ") + problem.what());
     }

@@ -35,11 +35,13 @@ private:
         long revision = 0;
         std::string material;
         KitOptions options;
-        double kerf = -1; //!< -1: the default
+        double kerf = -1;   //!< -1: the default
+        std::string folder; //!< of the design file: the targets of imports are there
     };
 
     Expected<Wish> read(const Session& session, const Request& request) const;
     void work(const Wish& wish);
+    Expected<Kit> made(const Wish& wish);
     void tell(const std::string& what);
 
     std::string version_;

@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "apps/studio/server/answers.h"
+#include "core/design/design_file.h"
 #include "core/design/mesh_import/mesh_import.h"
 #include "exporters/mesh_reader.h"
 
@@ -21,12 +22,6 @@ Expected<long> number(const Request& request, const std::string& name, long leas
                       std::to_string(least) + " to " + std::to_string(most));
     }
     return value;
-}
-
-std::string stem(const std::string& name)
-{
-    constexpr std::size_t longest = 80;
-    return name.substr(0, std::min(name.rfind('.'), longest));
 }
 
 } // namespace
@@ -51,7 +46,7 @@ Reply import_upload(Session& session, const Request& request)
         return error_reply(made.error());
     }
     Design design;
-    design.title = stem(name->second);
+    design.title = title_of(name->second.substr(0, name->second.rfind('.')));
     design.element = made->element;
     design.operations = {made->operation};
     return outcome_reply(session, session.replace(*revision, design));

@@ -91,6 +91,28 @@ TEST(DesignFile, TheLongSideMayBeExactlyOneAndAHalfTimesTheShort)
     EXPECT_NE(refusal(with_element(R"({"la_mm": 162.2, "lb_mm": 243.4})")), "accepted");
 }
 
+// The name of a mesh may be any bytes: a design is made of it nevertheless, and can be read again.
+TEST(DesignFile, ATitleFromAFileNameCanAlwaysBeReadAgain)
+{
+    std::string many;
+    for (int k = 0; k < 100; ++k) {
+        many += "\u6708";
+    }
+    for (const std::string& name : {std::string("l\xE4mp"), std::string(300, 'n'), many, std::string("a\tb\"c\\"),
+                                    std::string("cut \xE6\x9C"), std::string()}) {
+        Design design;
+        design.title = title_of(name);
+        design.operations = {Place{"body", "ball-30"}};
+        const auto read = parse_design(write_design(design));
+        ASSERT_TRUE(read.has_value()) << read.error().message;
+        EXPECT_EQ(read->title, design.title);
+    }
+    EXPECT_EQ(title_of("l\xE4mp"), "l\uFFFDmp");
+    EXPECT_EQ(title_of("B\u00FCste"), "B\u00FCste");
+    EXPECT_EQ(title_of("a\tb"), "a b");
+    EXPECT_EQ(title_of(many), many.substr(0, 240));
+}
+
 // Characters, not bytes; and no half character is shown.
 TEST(DesignFile, TitlesHaveUpToTwoHundredCharactersOfAnyScript)
 {
