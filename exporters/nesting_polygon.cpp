@@ -180,6 +180,10 @@ Expected<void> check_simple(const Polygon& polygon)
         }
     }
     const Box box = box_of(polygon);
+    constexpr double least_size = 0.01;
+    if ((box.max - box.min).maxCoeff() < least_size) {
+        return refuse("the outline is less than 0.01 mm wide and high: coordinates are millimetres");
+    }
     const double least_area = 1e-9 * (box.max - box.min).squaredNorm();
     const Polygon hull = convex_hull(polygon);
     if (hull.size() < 3 || signed_area(hull) <= least_area) {

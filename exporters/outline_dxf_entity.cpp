@@ -37,7 +37,7 @@ Expected<std::vector<DxfGroup>> dxf_groups(std::string_view bytes)
         if (awaits_value) {
             groups.push_back({code, text});
             if (code == 0 && text == "EOF") {
-                break;
+                return groups;
             }
             awaits_value = false;
             continue;
@@ -51,7 +51,7 @@ Expected<std::vector<DxfGroup>> dxf_groups(std::string_view bytes)
         }
         awaits_value = true;
     }
-    return groups;
+    return refuse("the file breaks off before its end (EOF): what it draws may be incomplete; export it again");
 }
 
 std::vector<DxfEntity> dxf_entities(const std::vector<DxfGroup>& groups, std::string_view section)

@@ -123,6 +123,18 @@ std::string dxf_with(const std::string& entities, const std::string& before = ""
 const std::string box_dxf =
     "0\nLWPOLYLINE\n8\n0\n90\n4\n70\n1\n10\n0\n20\n0\n10\n40\n20\n0\n10\n40\n20\n20\n10\n0\n20\n20\n";
 
+// Three of four corners would be read as a triangle.
+TEST(OutlineReader, RefusesADxfFileThatBreaksOff)
+{
+    const std::string whole = dxf_with(box_dxf);
+    EXPECT_NEAR(area_read("a.dxf", whole), 800, 1e-9);
+    for (const std::size_t end : {whole.find("0\nENDSEC"), whole.find("0\nEOF"), whole.find("10\n0\n20\n20\n")}) {
+        const auto read = read_outline("a.dxf", whole.substr(0, end));
+        ASSERT_FALSE(read.has_value()) << end;
+        EXPECT_NE(read.error().message.find("breaks off"), std::string::npos) << read.error().message;
+    }
+}
+
 TEST(OutlineReader, ReadsEllipsesSplinesAndBlocksOfDxf)
 {
     const std::string ellipse = "0\nELLIPSE\n10\n50\n20\n50\n11\n30\n21\n0\n40\n0.4\n41\n0\n42\n6.283185307179586\n";
