@@ -12,6 +12,7 @@ class ConcaveHinges
 public:
     ConcaveHinges(const EmbeddingTerms& terms, const Eigen::VectorXd& x, int threads);
 
+    //! \brief The mean size of the angles, radians: the scale of the widths.
     double mean_angle() const { return angle_.abs().mean(); }
 
     //! \brief The mean product of slack and force: how far it is from being settled which hinges are concave.

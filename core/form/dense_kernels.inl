@@ -137,7 +137,7 @@ struct BlockColumn
     }
 };
 
-// Apply action(BlockColumn, s, number of strips) to the strips [first, last).
+// Apply action<S>(s), which treats S strips from s on, to the strips [first, last).
 template <class Action>
 void for_strips(int first, int last, const Action& action)
 {
