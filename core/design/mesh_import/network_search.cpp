@@ -235,11 +235,13 @@ std::optional<Trial> attempt(const Trials& trials, int number)
     for (Trial& trial : found) {
         polish(trial, trials, stretch_price, work);
     }
-    ease_all(found, trials, stretch_price, 2 * work);
-    if (!can_be_built(found.front())) {
-        ease_all(found, trials, 4 * stretch_price, long_work);
+    std::vector<Trial> eased = found;
+    ease_all(eased, trials, stretch_price, 2 * work);
+    if (!can_be_built(eased.front())) {
+        eased = std::move(found); // as they were: what did not lead to the end has led astray
+        ease_all(eased, trials, 4 * stretch_price, long_work);
     }
-    return std::move(found.front());
+    return std::move(eased.front());
 }
 
 } // namespace
