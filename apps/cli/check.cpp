@@ -4,6 +4,7 @@
 #include "apps/cli/console.h"
 #include "apps/cli/piece_options.h"
 #include "core/text.h"
+#include "exporters/words.h"
 
 namespace rhombloom::cli {
 
@@ -16,9 +17,8 @@ std::string angle(double value)
 
 std::string as_text(const Buildability& report)
 {
-    std::string text = std::to_string(report.elements) + (report.elements == 1 ? " element, " : " elements, ") +
-                       std::to_string(report.flipped) + " of them flipped; " + std::to_string(report.boundary_loops) +
-                       (report.boundary_loops == 1 ? " opening\n" : " openings\n");
+    std::string text = plural(report.elements, "element") + ", " + std::to_string(report.flipped) +
+                       " of them flipped; " + plural(report.boundary_loops, "opening") + "\n";
     text += "angular defects " + angle(report.defects.min) + " to " + angle(report.defects.max) + " degrees\n";
     text += "largest stretch " + to_fixed(100 * report.embedding.max_stretch, 3) + " %, energy " +
             to_fixed(report.embedding.energy, 3) +

@@ -30,8 +30,8 @@ std::string summary(const Kit& kit, const std::string& folder)
     std::string text = "wrote " + std::to_string(kit.files.size()) + " files to " + folder;
     if (kit.cut.sheets > 0) {
         text += ": " + std::to_string(kit.cut.elements + kit.cut.spares) + " elements on " +
-                std::to_string(kit.cut.sheets) + (kit.cut.sheets == 1 ? " sheet" : " sheets") + ", " +
-                to_fixed(kit.cut.cut_length_m, 1) + " m to cut, " + duration(kit.cut.minutes, 1);
+                plural(kit.cut.sheets, "sheet") + ", " + to_fixed(kit.cut.cut_length_m, 1) + " m to cut, " +
+                duration(kit.cut.minutes, 1);
     }
     text += ". Start with README.txt.\n";
     for (const std::string& warning : kit.warnings) {

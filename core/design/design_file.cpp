@@ -160,7 +160,7 @@ std::string title_of(const std::string& file_stem)
     int characters = 0;
     for (const char c : formed) {
         const auto byte = static_cast<unsigned char>(c);
-        characters += (byte & 0xC0U) == 0x80U ? 0 : 1;
+        characters += continues_character(c) ? 0 : 1;
         if (characters > most_characters) {
             break;
         }

@@ -101,12 +101,12 @@ Expected<json> parse_json(std::string_view text)
     return refuse((placed ? position(text, builder.byte()) + ": " : "") + builder.problem());
 }
 
-namespace {
-
 bool continues_character(char byte)
 {
     return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
 }
+
+namespace {
 
 std::size_t characters(const std::string& utf8)
 {

@@ -52,4 +52,7 @@ Expected<nlohmann::json> parse_json(std::string_view text);
 //! \brief What a value is, for messages: "the text \"x\"", "the number 3", "a list", ...
 std::string describe(const nlohmann::json& value);
 
+//! \brief A byte of a UTF-8 character, and not its first.
+bool continues_character(char byte);
+
 } // namespace rhombloom

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "clipper_tools.h"
 #include "exporters/hook_measures.h"
 #include "exporters/materials.h"
@@ -143,13 +145,19 @@ TEST(HookChecks, ABrokenParameterFailsItsOwnCheckAndSaysWhatToChange)
     }
 }
 
+// NaN, with which no parameter is accepted, when the words are missing.
+double number_after(const std::string& words, const std::string& sentence)
+{
+    const std::size_t place = sentence.find(words);
+    EXPECT_NE(place, std::string::npos) << sentence;
+    return place == std::string::npos ? std::nan("") : std::stod(sentence.substr(place + words.size()));
+}
+
 TEST(HookChecks, TheLongSideThatC9NamesIsTheLongestThatPasses)
 {
     const Element wide{.la = 200, .lb = 300, .alpha = radians(50), .thickness = 0.8};
     const std::string sentence = checked(with({}, wide), "C9").sentence;
-    const std::string words = "make lb shorter (";
-    ASSERT_NE(sentence.find(words), std::string::npos) << sentence;
-    const double lb = std::stod(sentence.substr(sentence.find(words) + words.size()));
+    const double lb = number_after("make lb shorter (", sentence);
     EXPECT_TRUE(checked(with({{"lb", lb}}, wide), "C9").ok) << lb;
     EXPECT_FALSE(checked(with({{"lb", lb + 0.2}}, wide), "C9").ok) << lb;
 }
@@ -158,9 +166,7 @@ TEST(HookChecks, TheFingerLengthThatC10NamesIsTheLeastThatBears)
 {
     const Element thick{.la = 81.1, .lb = 99.2, .alpha = radians(59.2), .thickness = 0.57};
     const std::string sentence = checked(with({}, thick), "C10").sentence;
-    const std::string words = "a finger length of ";
-    ASSERT_NE(sentence.find(words), std::string::npos) << sentence;
-    const double length = std::stod(sentence.substr(sentence.find(words) + words.size()));
+    const double length = number_after("a finger length of ", sentence);
     EXPECT_TRUE(checked(with({{"finger_length", length}}, thick), "C10").ok);
     EXPECT_FALSE(checked(with({{"finger_length", length - 0.1}}, thick), "C10").ok);
 }

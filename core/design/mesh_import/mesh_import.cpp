@@ -17,7 +17,6 @@ namespace rhombloom {
 namespace {
 
 constexpr int fewest_elements = 20;
-constexpr int most_elements = 10000;
 constexpr int usual_elements = 600;
 constexpr int most_acute_corners = 5; // that makers report at one node
 constexpr double defect_margin = radians(10);
@@ -49,19 +48,19 @@ Expected<Sizing> sizing(const TriangleMesh& mesh, const ImportOptions& options)
         result.factor = size.height ? *size.height / own_height : options.mm_per_unit;
         result.rescale = false;
         const double count = own_area * result.factor * result.factor / element_area(options.element);
-        if (!(count >= fewest_elements && count <= most_elements)) {
+        if (!(count >= fewest_elements && count <= most_import_elements)) {
             return refuse("with la " + to_fixed(*size.la, 1) + " mm a target " +
                           to_fixed(own_height * result.factor, 1) + " mm high would take " + to_fixed(count, 0) +
                           " elements: expected " + std::to_string(fewest_elements) + " to " +
-                          std::to_string(most_elements) + "; give --elements or another --height");
+                          std::to_string(most_import_elements) + "; give --elements or another --height");
         }
         result.elements = static_cast<int>(std::lround(count));
         return result;
     }
     result.elements = size.elements.value_or(usual_elements);
-    if (result.elements < fewest_elements || result.elements > most_elements) {
+    if (result.elements < fewest_elements || result.elements > most_import_elements) {
         return refuse(std::to_string(result.elements) + " elements were asked for: expected " +
-                      std::to_string(fewest_elements) + " to " + std::to_string(most_elements));
+                      std::to_string(fewest_elements) + " to " + std::to_string(most_import_elements));
     }
     result.factor = std::sqrt(result.elements * element_area(options.element) / own_area);
     result.height = size.height.value_or(0);

@@ -9,6 +9,8 @@
 
 namespace rhombloom {
 
+inline constexpr int most_import_elements = 10000;
+
 //! \brief How large the design becomes: at most two of the three; the third follows from the target's area.
 //! \details Without height: the target is scaled to fit. Without la: the element's proportions are kept and its size
 //! follows. None: 600 elements of the given size.
