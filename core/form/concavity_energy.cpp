@@ -75,6 +75,12 @@ HingePoints hinge_points(const Eigen::VectorXd& x, const HingeVertices& hinge)
             x.segment<3>(3 * hinge[3])};
 }
 
+Vector3d hinge_normal(const HingePoints& p)
+{
+    const Vector3d edge = p.x1 - p.x0;
+    return edge.cross(p.x2 - p.x0) + (p.x3 - p.x0).cross(edge);
+}
+
 double hinge_angle(const HingePoints& p)
 {
     const Vector3d edge = p.x1 - p.x0;

@@ -19,6 +19,9 @@ using HingeVertices = std::array<int, 4>;
 //! \brief The points of a hinge among the positions \p x, three coordinates per vertex.
 HingePoints hinge_points(const Eigen::VectorXd& x, const HingeVertices& hinge);
 
+//! \brief The normals of the two triangles, outwards and each twice as long as the triangle is large, added.
+Eigen::Vector3d hinge_normal(const HingePoints& p);
+
 //! \brief Signed dihedral angle: zero when flat, positive when convex seen from outside, in (-pi, pi].
 double hinge_angle(const HingePoints& p);
 

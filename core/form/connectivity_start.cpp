@@ -30,8 +30,7 @@ std::vector<bool> folded_vertices(const EmbeddingTerms& terms, const VectorXd& x
 {
     std::vector<bool> out(terms.vertex_count, false);
     for (const HingeVertices& h : terms.hinges) {
-        const double angle = hinge_angle(
-            {x.segment<3>(3 * h[0]), x.segment<3>(3 * h[1]), x.segment<3>(3 * h[2]), x.segment<3>(3 * h[3])});
+        const double angle = hinge_angle(hinge_points(x, h));
         if (angle < dimple_angle || angle > fold_angle) {
             out[h[0]] = out[h[1]] = true;
         }

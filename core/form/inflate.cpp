@@ -23,8 +23,7 @@ Matrix3Xd area_vectors(const EmbeddingTerms& terms, const Matrix3Xd& x)
 {
     Matrix3Xd out = Matrix3Xd::Zero(3, terms.vertex_count);
     for (const HingeVertices& h : terms.hinges) {
-        const Vector3d edge = x.col(h[1]) - x.col(h[0]);
-        out.col(h[0]) += (edge.cross(x.col(h[2]) - x.col(h[0])) + (x.col(h[3]) - x.col(h[0])).cross(edge)) / 4;
+        out.col(h[0]) += hinge_normal({x.col(h[0]), x.col(h[1]), x.col(h[2]), x.col(h[3])}) / 4;
     }
     for (int v = 0; v < terms.vertex_count; ++v) {
         out.col(v) /= std::max(1.0, out.col(v).norm());

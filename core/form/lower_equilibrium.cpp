@@ -56,10 +56,8 @@ private:
     bool has_concave_hinge(int v) const
     {
         const VectorXd& x = best_.iterate.x;
-        return std::any_of(hinges_[v].begin(), hinges_[v].end(), [&](const HingeVertices& h) {
-            return hinge_angle({x.segment<3>(3 * h[0]), x.segment<3>(3 * h[1]), x.segment<3>(3 * h[2]),
-                                x.segment<3>(3 * h[3])}) < concave;
-        });
+        return std::any_of(hinges_[v].begin(), hinges_[v].end(),
+                           [&](const HingeVertices& h) { return hinge_angle(hinge_points(x, h)) < concave; });
     }
 
     Vector3d normal_at(int v) const
@@ -67,9 +65,7 @@ private:
         const VectorXd& x = best_.iterate.x;
         Vector3d sum = Vector3d::Zero();
         for (const HingeVertices& h : hinges_[v]) {
-            const Vector3d x0 = x.segment<3>(3 * v);
-            const Vector3d edge = x.segment<3>(3 * h[1]) - x0;
-            sum += edge.cross(x.segment<3>(3 * h[2]) - x0) + (x.segment<3>(3 * h[3]) - x0).cross(edge);
+            sum += hinge_normal(hinge_points(x, h));
         }
         return sum.normalized();
     }

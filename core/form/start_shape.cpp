@@ -39,9 +39,7 @@ Vector3d mean_normal(const EmbeddingTerms& terms, const VectorXd& x)
 {
     Vector3d sum = Vector3d::Zero();
     for (const HingeVertices& h : terms.hinges) {
-        const Vector3d x0 = x.segment<3>(3 * h[0]);
-        const Vector3d edge = x.segment<3>(3 * h[1]) - x0;
-        sum += edge.cross(x.segment<3>(3 * h[2]) - x0) + (x.segment<3>(3 * h[3]) - x0).cross(edge);
+        sum += hinge_normal(hinge_points(x, h));
     }
     return sum;
 }
@@ -105,9 +103,8 @@ double volume(const EmbeddingTerms& terms, const VectorXd& x)
 {
     double sum = 0;
     for (const HingeVertices& h : terms.hinges) {
-        const Vector3d x0 = x.segment<3>(3 * h[0]);
-        const Vector3d x1 = x.segment<3>(3 * h[1]);
-        sum += x0.cross(x1).dot(x.segment<3>(3 * h[2]) - x.segment<3>(3 * h[3]));
+        const HingePoints p = hinge_points(x, h);
+        sum += p.x0.cross(p.x1).dot(p.x2 - p.x3);
     }
     return sum;
 }
@@ -322,8 +319,7 @@ double sharpest_concavity(const EmbeddingTerms& terms, const VectorXd& x)
 {
     double smallest = 0;
     for (const HingeVertices& h : terms.hinges) {
-        smallest = std::min(smallest, hinge_angle({x.segment<3>(3 * h[0]), x.segment<3>(3 * h[1]),
-                                                   x.segment<3>(3 * h[2]), x.segment<3>(3 * h[3])}));
+        smallest = std::min(smallest, hinge_angle(hinge_points(x, h)));
     }
     return smallest;
 }
@@ -332,9 +328,7 @@ bool pop_dimples(const EmbeddingTerms& terms, VectorXd& x)
 {
     std::vector<bool> rim(terms.vertex_count, false);
     for (const HingeVertices& h : terms.hinges) {
-        const double angle = hinge_angle(
-            {x.segment<3>(3 * h[0]), x.segment<3>(3 * h[1]), x.segment<3>(3 * h[2]), x.segment<3>(3 * h[3])});
-        if (angle < dimple_angle) {
+        if (hinge_angle(hinge_points(x, h)) < dimple_angle) {
             rim[h[0]] = rim[h[1]] = true;
         }
     }
