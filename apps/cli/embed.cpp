@@ -1,6 +1,5 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/console.h"
-#include "apps/cli/usage.h"
 #include "core/text.h"
 #include "exporters/save.h"
 #include "exporters/surface_file.h"
@@ -47,9 +46,7 @@ void add_embed(CLI::App& app, Run& run)
     auto design = std::make_shared<std::string>();
     auto output = std::make_shared<std::string>();
     command->add_option("DESIGN", *design, "design file")->required();
-    command->add_option("-o,--output", *output, "file to write: .json, .obj, .off or .ply")
-        ->required()
-        ->check(not_empty());
+    command->add_option("-o,--output", *output, "file to write: .json, .obj, .off or .ply")->required();
     command->callback([&run, design, output] { run = [design, output] { return run_embed(*design, *output); }; });
 }
 

@@ -138,9 +138,7 @@ void add_fabricate(CLI::App& app, Run& run)
     command->footer("Example: rhombloom fabricate examples/ball-30.json -o kit "
                     "--machine glowforge --kerf 0.2");
     command->add_option("DESIGN", options->design, "design file")->required();
-    command->add_option("-o,--output", options->output, "folder of the kit; made when it is missing")
-        ->required()
-        ->check(not_empty());
+    command->add_option("-o,--output", options->output, "folder of the kit; made when it is missing")->required();
     command->add_option("--only", options->only, "only these parts: cut,booklet,preview,hooks")
         ->delimiter(',')
         ->transform(one_of<KitPart>({{"cut", KitPart::Cut},

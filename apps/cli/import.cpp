@@ -240,7 +240,7 @@ void add_import(CLI::App& app, Run& run)
         "beside the design, and a picture of both (vase.png).");
     auto arguments = std::make_shared<ImportArguments>();
     command->add_option("MESH", arguments->mesh, "file with the target")->required();
-    command->add_option("-o,--output", arguments->output, "design file to write")->required()->check(not_empty());
+    command->add_option("-o,--output", arguments->output, "design file to write")->required();
     command->add_option("--elements", arguments->size.elements, "how many elements (600)");
     command->add_option("--la", arguments->size.la, "short side of the element, mm (80)");
     command->add_option("--height", arguments->size.height, "of the target, along z, mm (1 to 100000)")

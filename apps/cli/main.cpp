@@ -78,12 +78,15 @@ int run_program(int argc, char** argv)
         add(app, run);
     }
     add_version(app);
+    cli::refuse_empty_values(app);
     const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
     if (const std::string sentence = cli::unknown_name(app, arguments); !sentence.empty()) {
         return complain(sentence, wrong_usage);
     }
     try {
-        app.parse(argc, argv);
+        std::vector<std::string> apart = cli::with_values_apart(app, arguments);
+        std::reverse(apart.begin(), apart.end()); // as CLI11 expects them
+        app.parse(std::move(apart));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
             return app.exit(error); // --help and --version

@@ -88,7 +88,7 @@ void add_nest(CLI::App& app, Run& run)
     auto given = std::make_shared<NestCommand>();
     command->add_option("OUTLINE", given->outline, "one closed contour: .svg, .dxf or .json {\"outline\": [[x,y],...]}")
         ->required();
-    command->add_option("-o,--output", given->output, "folder to write")->required()->check(not_empty());
+    command->add_option("-o,--output", given->output, "folder to write")->required();
     command->add_option("--sheet", given->sheet, "sheet size WxH in mm, or WxHin")->capture_default_str();
     command->add_option("--count", given->options.count, "number of copies")->required();
     command->add_option("--spacing", given->options.spacing, "mm between finished edges")->capture_default_str();

@@ -70,6 +70,17 @@ std::string option_name(const std::string& argument)
     return argument[1] == '-' ? argument.substr(0, argument.find('=')) : argument.substr(0, 2);
 }
 
+//! Does the argument name an option and, behind a '=', its value?
+bool holds_value(const CLI::App& command, const std::string& argument)
+{
+    const std::size_t end = argument.find('=');
+    if (end == std::string::npos || argument[0] != '-') {
+        return false;
+    }
+    const CLI::Option* option = command.get_option_no_throw(argument.substr(0, end));
+    return option != nullptr && option->get_items_expected_min() > 0;
+}
+
 std::string unknown_command(const CLI::App& app, const std::string& name)
 {
     const std::vector<std::string> known = command_names(app);
@@ -94,9 +105,17 @@ CLI::Validator in_range(double min, double max)
     return CLI::Validator(check, "");
 }
 
-CLI::Validator not_empty()
+void refuse_empty_values(CLI::App& app)
 {
-    return CLI::Validator([](std::string& input) { return input.empty() ? "the name is empty" : std::string(); }, "");
+    const CLI::Validator given([](std::string& input) { return input.empty() ? "the value is empty" : std::string(); },
+                               "");
+    for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+        for (CLI::Option* option : command->get_options()) {
+            if (!option->get_positional() && option->get_items_expected_min() > 0) {
+                option->transform(given); // asked before the option's own
+            }
+        }
+    }
 }
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known)
@@ -112,6 +131,24 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
         }
     }
     return nearest;
+}
+
+std::vector<std::string> with_values_apart(const CLI::App& app, std::span<const std::string> arguments)
+{
+    const CLI::App* command = command_of(app, arguments);
+    std::vector<std::string> apart;
+    bool names_only = false; // what follows "--"
+    for (const std::string& argument : arguments) {
+        names_only = names_only || argument == "--";
+        if (names_only || !holds_value(command == nullptr ? app : *command, argument)) {
+            apart.push_back(argument);
+            continue;
+        }
+        const std::size_t end = argument.find('=');
+        apart.push_back(argument.substr(0, end));
+        apart.push_back(argument.substr(end + 1));
+    }
+    return apart;
 }
 
 std::string called(const CLI::App& app, std::span<const std::string> arguments)

@@ -14,6 +14,10 @@ namespace rhombloom::cli {
 //! \details CLI11 itself would complain of something that is missing first, and suggests nothing.
 std::string unknown_name(const CLI::App& app, std::span<const std::string> arguments);
 
+//! \brief \p arguments with every option's name and value apart: "-o", "kit" of "-o=kit".
+//! \details CLI11 itself would take "=kit" for the value, and of "--output=" the next argument.
+std::vector<std::string> with_values_apart(const CLI::App& app, std::span<const std::string> arguments);
+
 //! \brief The one of \p known that takes the fewest insertions, deletions, replacements and swaps to become \p name;
 //! empty when none takes fewer than half of its letters.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
@@ -39,8 +43,9 @@ CLI::Validator one_of(std::vector<std::pair<std::string, T>> values)
 //! \brief Refuses what lies outside of \p min and \p max (both allowed), and what is no number at all (nan).
 CLI::Validator in_range(double min, double max);
 
-//! \brief Refuses the empty name that an unset variable of the shell leaves.
-CLI::Validator not_empty();
+//! \brief Has the options of all commands refuse the empty value that an unset variable of the shell leaves; where a
+//! number is expected CLI11 would take it for 0.
+void refuse_empty_values(CLI::App& app);
 
 //! \brief The command among \p arguments: "rhombloom nest", or "rhombloom" when there is none.
 std::string called(const CLI::App& app, std::span<const std::string> arguments);

@@ -129,7 +129,11 @@ for arguments, words in [(["fabrcate", good], "did you mean fabricate?"), (["--v
                          (["nest", good], "rhombloom nest --help"),
                          (["nest", good, "-o", work / "out", "--count", "many"], "--count = many: expected a number"),
                          (["nest", good, "-o", work / "out", "--count", "9", "--grain", "1"], "any, half-turn, fixed"),
-                         (["fabricate", good, "-o", ""], "--output: the name is empty"),
+                         (["fabricate", good, "-o", ""], "--output: the value is empty"),
+                         (["embed", good, "-o="], "--output: the value is empty"),
+                         (["fabricate", good, "--output=", "--lamp"], "--output: the value is empty"),
+                         (["fabricate", good, "-o", work / "out", "--kerf", ""], "--kerf: the value is empty"),
+                         (["fabricate", good, "-o", work / "out", "--machine="], "--machine: the value is empty"),
                          (["fabricate", good, "-o", work / "out", "--kerf", "0,2"], "--kerf = 0,2: expected a number "),
                          (["check", good, "--max-stretch", "nan"], "nan is not from 0.1 to 5"),
                          (["fabricate", good, "-o", work / "out", "--stroke", "0"], "0 is not from 0.001 to 2"),
@@ -137,6 +141,13 @@ for arguments, words in [(["fabrcate", good], "did you mean fabricate?"), (["--v
     expect(f"usage {arguments}", run(arguments), 2, words)
 expect("a spacing of -1", run(["fabricate", good, "-o", work / "out", "--spacing", "-1"]), 1, "--spacing is -1 mm")
 expect("a length of 0", run(["import", good, "-o", work / "x.json", "--la", "0"]), 1, "la_mm is 0 mm: expected")
+# A value may follow a '=', behind the short name as behind the long one.
+for number, option in enumerate(["-o=", "--output=", "-o"]):
+    target = work / f"named-{number}.off"
+    told = run(["embed", good, f"{option}{target}"])
+    checked += 1
+    if told.returncode != 0 or not target.exists():
+        problems.append(f"{option}{target}: {told.stdout} {told.stderr}")
 told = run(["import", "none.obj", "-o", work / "x.json"])
 expect("mesh that is missing", told, 1, "none.obj does not exist")
 if told.stderr.count(b"none.obj") != 1:
