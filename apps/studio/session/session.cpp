@@ -62,9 +62,10 @@ Session::Session(std::string path, const Design& design) : path_(std::move(path)
 Expected<std::unique_ptr<Session>> Session::open(const std::string& path)
 {
     Design design;
+    std::optional<std::string> written;
     std::error_code ignored;
     if (std::filesystem::exists(path, ignored)) {
-        const auto bytes = load_file(path, max_bytes);
+        auto bytes = load_file(path, max_bytes);
         if (!bytes) {
             return tl::make_unexpected(bytes.error());
         }
@@ -73,12 +74,13 @@ Expected<std::unique_ptr<Session>> Session::open(const std::string& path)
             return refuse(path + ": " + read.error().message);
         }
         design = std::move(*read);
+        written = std::move(*bytes);
     } else if (const auto folder = std::filesystem::path(path).parent_path();
                !folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
         return refuse("there is no folder " + folder.string() + " for the design: make it first");
     }
     std::unique_ptr<Session> session(new Session(path, design));
-    session->written_ = present_bytes(path);
+    session->written_ = std::move(written);
     const auto scene = session->cache_.scene(design);
     if (!scene) {
         return refuse(path + ": " + sentence(scene.error(), design));

@@ -3,6 +3,9 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
+
+#include <sys/stat.h>
 
 #include <gtest/gtest.h>
 
@@ -168,6 +171,22 @@ TEST_F(SessionTest, WhatAnotherProgramWroteIsTakenAndUndoBringsBackTheVersionBef
     EXPECT_EQ(now->scene->parts[0].surface.n_faces(), 12U);
     EXPECT_EQ(session->undo(now->revision).status, Status::Done);
     EXPECT_EQ(bytes(), ours);
+}
+
+TEST_F(SessionTest, WhatIsWrittenWhileTheFileIsOpenedIsNotOverwritten)
+{
+    const std::string theirs = R"({"rhombloom": 1, "operations": [{"op": "place", "shape": "ball-12"}]})";
+    std::ofstream(folder_ / "theirs.json") << theirs;
+    ASSERT_EQ(::mkfifo(file().c_str(), 0600), 0);
+    std::jthread writer([&] {
+        std::ofstream pipe(file());
+        pipe << R"({"rhombloom": 1, "operations": [{"op": "place", "shape": "ball-30"}]})" << std::flush;
+        std::filesystem::rename(folder_ / "theirs.json", file());
+    });
+    const auto session = open(); // reads to the pipe's end, which comes after the new file
+    EXPECT_EQ(session->snapshot()->scene->parts[0].surface.n_faces(), 30U);
+    EXPECT_EQ(session->apply(1, ball("more", {500, 0, 0})).status, Status::Stale);
+    EXPECT_EQ(bytes(), theirs);
 }
 
 TEST_F(SessionTest, AFileThatWasSpoiledElsewhereIsNeitherTakenNorOverwritten)
