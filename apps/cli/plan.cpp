@@ -16,7 +16,7 @@ std::string as_text(const Scorecard& score)
     return "steps                          " + std::to_string(score.steps) + "\ninserts                        " +
            std::to_string(score.inserts) + "\nreopened elements              " + std::to_string(score.removals) +
            "\nparts needed                   " + std::to_string(score.parts_needed) +
-           "\nexposure (open sides, summed)  " + std::to_string(score.exposure) + "\none-neighbour inserts          " +
+           "\nexposure (sides waiting)       " + std::to_string(score.exposure) + "\none-neighbour inserts          " +
            std::to_string(score.one_neighbour_inserts) + "\nfour-at-once inserts           " +
            std::to_string(score.four_at_once_inserts) + "\ninserts at negative defects    " +
            std::to_string(score.negative_defect_inserts) + "\nview turns                     " +

@@ -43,7 +43,7 @@ struct Scorecard
     int inserts = 0;
     int removals = 0;     //!< reopened elements
     int parts_needed = 0; //!< most elements present at once
-    long exposure = 0;    //!< sum over the steps of the open sides
+    long exposure = 0;    //!< sum over the steps of the sides that wait to be hooked
     int one_neighbour_inserts = 0;
     int four_at_once_inserts = 0;
     int negative_defect_inserts = 0; //!< inserts with >= 3 built neighbours at a vertex of negative defect

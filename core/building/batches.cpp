@@ -75,21 +75,6 @@ int chapter_of(const BuildState& state, const BuildHistory& history, const Targe
     return state.last < 0 ? 0 : history.component[state.last];
 }
 
-long exposure(const std::vector<Step>& steps)
-{
-    long sum = 0;
-    long open = 0;
-    for (const Step& step : steps) {
-        const auto joins = static_cast<long>(step.joins.size());
-        open += step.kind == StepKind::Insert   ? 4 - 2 * joins
-                : step.kind == StepKind::Remove ? 2 * joins - 4
-                : step.kind == StepKind::Hook   ? -2 * joins
-                                                : 2 * joins;
-        sum += open;
-    }
-    return sum;
-}
-
 AssemblyPlan finish_plan(const PlanSources& sources, std::vector<Step> steps, Order order)
 {
     const BuildHistory& history = sources.history;

@@ -12,6 +12,7 @@ namespace rhombloom {
 namespace {
 
 constexpr int most_passes = 3;
+constexpr double left_over_cost = 1;   // of an element that is cut and not in the final surface
 constexpr double most_exposure = 1.05; // of the paper's, when the last element is given
 
 double ratio(double value, double reference)
@@ -58,7 +59,8 @@ struct Search
         Candidate made;
         made.plan = finish_plan(sources, greedy_order(sources, targets, choice.taste), Order::Best);
         if (plan_problems(sources.replay, sources.element, made.plan).empty()) {
-            made.cost = cost(made.plan.scorecard, paper);
+            const int left_over = made.plan.scorecard.parts_needed - sources.history.final_count;
+            made.cost = cost(made.plan.scorecard, paper) + left_over_cost * left_over;
         }
         return made;
     }

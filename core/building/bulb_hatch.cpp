@@ -127,7 +127,7 @@ int best_hatch(const PlanSources& sources, const std::vector<int>& elements)
     std::pair<long, int> best{std::numeric_limits<long>::max(), -1};
     for (const int e : elements) {
         const auto steps = greedy_order(sources, open_targets(sources.history, all, closed, e), {});
-        best = std::min(best, {exposure(steps), e});
+        best = std::min(best, {exposure(steps, sources.replay.surface), e});
     }
     return best.second;
 }

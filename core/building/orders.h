@@ -64,9 +64,6 @@ std::vector<Step> greedy_order(const PlanSources& sources, const std::vector<Tar
 //! at most 1.05 of the exposure of the paper's order.
 AssemblyPlan best_plan(const PlanSources& sources);
 
-//! \brief Sum over the steps of the open sides.
-long exposure(const std::vector<Step>& steps);
-
 //! \brief A plan of these steps, with the temporary elements it uses renumbered without gaps, and its scorecard.
 AssemblyPlan finish_plan(const PlanSources& sources, std::vector<Step> steps, Order order);
 

@@ -17,7 +17,6 @@ struct Table
     std::vector<char> present;
     std::vector<Ports> hooked;
     int parts = 0;
-    int hooks = 0;
 
     explicit Table(const AssemblyPlan& plan, std::size_t final_count)
         : present(final_count + plan.temporary.size(), 0), hooked(present.size())
@@ -31,14 +30,11 @@ struct Table
             hooked[step.element][join.side] = joining ? Port{join.to, join.to_side} : Port{};
             hooked[join.to][join.to_side] = joining ? Port{step.element, join.side} : Port{};
         }
-        hooks += (joining ? 1 : -1) * static_cast<int>(step.joins.size());
         parts += step.kind == StepKind::Insert ? 1 : step.kind == StepKind::Remove ? -1 : 0;
         if (step.kind == StepKind::Insert || step.kind == StepKind::Remove) {
             present[step.element] = step.kind == StepKind::Insert;
         }
     }
-
-    int open_sides() const { return 4 * parts - 2 * hooks; }
 
     int pieces() const
     {
@@ -132,6 +128,32 @@ void count_insert(const Step& step, bool hard, Scorecard& score)
 
 } // namespace
 
+long exposure(const std::vector<Step>& steps, const Surface& last)
+{
+    const auto waits = [&](int element, int side) {
+        return element >= static_cast<int>(last.n_faces()) ||
+               !last.is_boundary(last.opposite_halfedge_handle(side_halfedge(last, Face(element), side)));
+    };
+    long sum = 0;
+    long waiting = 0;
+    for (const Step& step : steps) {
+        long hooked = 0;
+        for (const Join& join : step.joins) {
+            hooked += waits(step.element, join.side) + waits(join.to, join.to_side);
+        }
+        long own = 0;
+        for (int side = 0; side < 4; ++side) {
+            own += waits(step.element, side);
+        }
+        waiting += step.kind == StepKind::Insert   ? own - hooked
+                   : step.kind == StepKind::Remove ? hooked - own
+                   : step.kind == StepKind::Hook   ? -hooked
+                                                   : hooked;
+        sum += waiting;
+    }
+    return sum;
+}
+
 Scorecard scorecard(const Replay& replay, const Element& element, const AssemblyPlan& plan)
 {
     StageCoverage coverage(replay);
@@ -146,7 +168,6 @@ Scorecard scorecard(const Replay& replay, const Element& element, const Assembly
     for (const Step& step : plan.steps) {
         const bool hard = hardness(step);
         table.apply(step);
-        score.exposure += table.open_sides();
         score.parts_needed = std::max(score.parts_needed, table.parts);
         score.removals += step.kind == StepKind::Remove;
         score.minutes += minutes(step, hard);
@@ -155,6 +176,7 @@ Scorecard scorecard(const Replay& replay, const Element& element, const Assembly
         }
     }
     score.steps = static_cast<int>(plan.steps.size());
+    score.exposure = exposure(plan.steps, replay.surface);
     score.view_turns = count_turns(held_views(replay, plan, coverage));
     return score;
 }

@@ -5,6 +5,11 @@
 
 namespace rhombloom {
 
+//! \brief Sum over the steps of the sides that wait to be hooked.
+//! \details A side that is open in the \p last surface waits for nothing: else it would pay to close an opening with
+//! elements that are cut only to be taken out again.
+long exposure(const std::vector<Step>& steps, const Surface& last);
+
 //! \brief Count what an order asks of the builder. View turns included (held_views).
 Scorecard scorecard(const Replay& replay, const Element& element, const AssemblyPlan& plan);
 Scorecard scorecard(const Replay& replay, const Element& element, const AssemblyPlan& plan, StageCoverage& coverage);

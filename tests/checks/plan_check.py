@@ -186,8 +186,12 @@ class Replay:
             if e not in shape.element_of:
                 self.complain(k, "shape", f"element {e} is there but not in the shape drawn")
         self.score["steps"] += 1
-        self.score["exposure"] += 4 * len(self.present) - len(self.hooked)
+        self.score["exposure"] += sum(1 for e in self.present for side in range(4)
+                                      if (e, side) not in self.hooked and self.is_hooked_in_the_end((e, side)))
         self.score["parts_needed"] = max(self.score["parts_needed"], len(self.present))
+
+    def is_hooked_in_the_end(self, side):
+        return side[0] >= self.count or self.shapes["final"].ports.get(side) is not None
 
     def finish(self):
         if self.present != set(range(self.count)):

@@ -85,6 +85,18 @@ TEST(AssemblyPlan, ObeysTheHardRulesOnRandomChainsWithOpenings)
     }
 }
 
+// What lies open in the end is left open from the start: no element is cut to be taken out again.
+TEST(AssemblyPlan, CutsNothingForAnOpening)
+{
+    for (const char* name : {"ball-30", "polar-4x6"}) {
+        for (const int opening : {0, 7, 29}) {
+            const Replay replay = replays::opened(replays::chain(name, 3), opening);
+            const AssemblyPlan plan = assembly_plan(replay, element, Order::Best);
+            EXPECT_EQ(plan.scorecard.parts_needed, static_cast<int>(replay.surface.n_faces())) << name << opening;
+        }
+    }
+}
+
 // Every spoilt plan is told: a step left out, two dependent steps exchanged, a join dropped, an element repeated.
 RC_GTEST_PROP(AssemblyPlan, IsRefusedWhenSpoilt, ())
 {
