@@ -48,32 +48,45 @@ std::string opening_words(const BookletSources& sources, const Names& names)
     return words.empty() ? words : words + ". ";
 }
 
-//! Is the last element the one to take out to reach the bulb? Beside the hatch that the design names; else, the one
-//! that closed the shape.
-bool last_is_hatch(const BookletSources& sources)
+//! How the bulb is reached: through a hatch that the design names, by unhooking the last element, or both.
+struct BulbWay
+{
+    const NamedOpening* hatch = nullptr;
+    bool by_last = false; //!< it is beside the hatch or, where none is named, closed the shape
+};
+
+BulbWay bulb_way(const BookletSources& sources)
 {
     const Step& last = sources.plan.steps.back();
-    bool named = false;
-    bool beside = false;
+    BulbWay way;
     for (const NamedOpening& opening : sources.openings) {
-        if (names_hatch(opening.purpose)) {
-            named = true;
-            beside = beside || std::count(opening.beside.begin(), opening.beside.end(), last.element) > 0;
+        if (!way.by_last && names_hatch(opening.purpose)) {
+            way.hatch = &opening;
+            way.by_last = std::count(opening.beside.begin(), opening.beside.end(), last.element) > 0;
         }
     }
-    return last.kind == StepKind::Insert && (named ? beside : last.joins.size() >= 3);
+    way.by_last = last.kind == StepKind::Insert && (way.hatch != nullptr ? way.by_last : last.joins.size() >= 3);
+    return way;
 }
 
-std::string hatch_words(const BookletSources& sources, const Names& names)
+//! A hatch that the design names is an opening; the element beside it is not called so too.
+std::string bulb_words(const BookletSources& sources, const BulbWay& way, const Names& names)
 {
+    const std::string through =
+        way.hatch == nullptr ? "" : "Reach the bulb through the opening \"" + way.hatch->purpose + "\". ";
+    if (!way.by_last) {
+        return through;
+    }
     const std::vector<Step>& steps = sources.plan.steps;
     std::vector<int> round;
     for (const Join& join : steps.back().joins) {
         round.push_back(join.to);
     }
-    return "The dark red element is the bulb hatch: to reach the bulb, unhook it, and afterwards hook it in again as "
-           "step " +
-           std::to_string(steps.size()) + " shows (its neighbours are " + named(round, names) + "). ";
+    const std::string unhook = way.hatch == nullptr
+                                   ? "The dark red element is the bulb hatch: to reach the bulb, unhook it"
+                                   : "Where that is too narrow, unhook the dark red element beside it";
+    return through + unhook + ", and afterwards hook it in again as step " + std::to_string(steps.size()) +
+           " shows (its neighbours are " + named(round, names) + "). ";
 }
 
 //! Are most of the elements round it seen, from outside?
@@ -142,7 +155,7 @@ void draw_last_page(PdfCanvas& canvas, const BookletSources& sources)
     if (sources.plan.steps.empty()) {
         return;
     }
-    const bool hatch = last_is_hatch(sources);
+    const BulbWay bulb = bulb_way(sources);
     const int view = sources.layout.places.back().view;
     const double width = paper.width - 2 * page_margin;
     const Vec2 centre(paper.width / 2, paper.height * 0.47);
@@ -151,14 +164,14 @@ void draw_last_page(PdfCanvas& canvas, const BookletSources& sources)
     const Cords cords{model_camera(sources, view, half), centre, mass_centre(surface), hanging_points(surface)};
     canvas.figure("The finished model, hung from its top.", [&] {
         cords.draw(canvas, false);
-        draw_model(canvas, sources, centre, half, view, hatch ? sources.plan.steps.back().element : -1);
+        draw_model(canvas, sources, centre, half, view, bulb.by_last ? sources.plan.steps.back().element : -1);
         cords.draw(canvas, true);
         canvas.shifted(centre, [&] { draw_openings(canvas, sources, cords.camera); });
     });
     const Names names =
         element_names(sources.plan, sources.replay.surface.n_faces(), static_cast<int>(sources.plan.steps.size()));
-    const std::string words = hanging_words(sources, cords.ends.size()) + (hatch ? hatch_words(sources, names) : "") +
-                              opening_words(sources, names);
+    const std::string words =
+        hanging_words(sources, cords.ends.size()) + bulb_words(sources, bulb, names) + opening_words(sources, names);
     canvas.tagged(
         "P", [&] { canvas.paragraph(words, Vec2(page_margin, paper.height - page_margin - 76), width, {11}, 15); });
 }

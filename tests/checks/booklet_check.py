@@ -283,6 +283,9 @@ def check_text(kit):
         here = [k + 1 for k, step in enumerate(kit.plan["steps"]) if step["page"] == page]
         if [int(n) for n in re.findall(r"\bStep (\d+)\b", body)] != here:
             kit.complain(f"page {page}: the plan puts steps {here} there")
+    words = " ".join(text.split())
+    if "bulb hatch between" in words and "is the bulb hatch" in words:
+        kit.complain("an opening and an element are both called the bulb hatch")
 
 
 def outline_items(node):
