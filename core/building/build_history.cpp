@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/model/angular_defect.h"
+#include "core/model/regions.h"
 
 namespace rhombloom {
 
@@ -22,47 +23,21 @@ FacesBySerial faces_by_serial(const Surface& surface)
     return faces;
 }
 
-//! The connected part of each face, numbered by their lowest face.
-std::vector<int> parts(const Surface& surface)
-{
-    std::vector<int> part(surface.n_faces(), -1);
-    int count = 0;
-    for (const Face first : surface.faces()) {
-        if (part[first.idx()] >= 0) {
-            continue;
-        }
-        std::vector<Face> open = {first};
-        part[first.idx()] = count;
-        while (!open.empty()) {
-            const Face f = open.back();
-            open.pop_back();
-            for (const Face g : surface.ff_range(f)) {
-                if (part[g.idx()] < 0) {
-                    part[g.idx()] = count;
-                    open.push_back(g);
-                }
-            }
-        }
-        ++count;
-    }
-    return part;
-}
-
-//! Faces of the part that shares most elements with \p built (the first part when it shares none).
+//! Faces of the part that shares most elements with \p built (the first part when it shares none), ascending.
 std::vector<Face> continued_part(const Surface& surface, const std::vector<int>& built)
 {
-    const std::vector<int> part = parts(surface);
-    std::vector<int> shared(part.size() + 1, 0);
-    for (const Face f : surface.faces()) {
-        shared[part[f.idx()]] += std::binary_search(built.begin(), built.end(), surface.data(f).serial);
-    }
-    const auto best = std::max_element(shared.begin(), shared.end()) - shared.begin();
     std::vector<Face> faces;
-    for (const Face f : surface.faces()) {
-        if (part[f.idx()] == best) {
-            faces.push_back(f);
+    long most = -1;
+    for (std::vector<Face>& part : connected_regions(surface)) {
+        const long shared = std::count_if(part.begin(), part.end(), [&](Face f) {
+            return std::binary_search(built.begin(), built.end(), surface.data(f).serial);
+        });
+        if (shared > most) {
+            most = shared;
+            faces = std::move(part);
         }
     }
+    std::sort(faces.begin(), faces.end());
     return faces;
 }
 

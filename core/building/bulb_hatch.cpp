@@ -7,6 +7,7 @@
 #include "core/building/orders.h"
 #include "core/building/viewpoints.h"
 #include "core/model/angular_defect.h"
+#include "core/model/regions.h"
 
 namespace rhombloom {
 
@@ -31,25 +32,11 @@ std::set<int> serials(const Surface& surface)
 std::vector<std::vector<Face>> holes_made(const Surface& before, const Surface& after)
 {
     const std::set<int> left = serials(after);
-    std::vector<char> seen(before.n_faces(), 0);
-    std::vector<std::vector<Face>> holes;
-    for (const Face first : before.faces()) {
-        if (left.contains(before.data(first).serial) || seen[first.idx()]) {
-            continue;
-        }
-        std::vector<Face> hole = {first};
-        seen[first.idx()] = 1;
-        for (std::size_t i = 0; i < hole.size(); ++i) {
-            for (const Face g : before.ff_range(hole[i])) {
-                if (!left.contains(before.data(g).serial) && !seen[g.idx()]) {
-                    seen[g.idx()] = 1;
-                    hole.push_back(g);
-                }
-            }
-        }
-        holes.push_back(hole);
+    std::vector<char> stays(before.n_faces(), 0);
+    for (const Face f : before.faces()) {
+        stays[f.idx()] = left.contains(before.data(f).serial);
     }
-    return holes;
+    return connected_regions(before, std::move(stays));
 }
 
 //! Serials of the elements that share a side with one of the hole.
@@ -90,23 +77,9 @@ std::vector<int> rim_of(const std::vector<Face>& hole, const Surface& before, co
 
 bool holds_others(const Surface& surface, Face leaving)
 {
-    std::vector<char> seen(surface.n_faces(), 0);
-    seen[leaving.idx()] = 1;
-    std::vector<Face> open = {Face(leaving.idx() == 0 ? 1 : 0)};
-    std::size_t count = 2;
-    seen[open.front().idx()] = 1;
-    while (!open.empty()) {
-        const Face f = open.back();
-        open.pop_back();
-        for (const Face g : surface.ff_range(f)) {
-            if (!seen[g.idx()]) {
-                seen[g.idx()] = 1;
-                ++count;
-                open.push_back(g);
-            }
-        }
-    }
-    return count < surface.n_faces();
+    std::vector<char> left_out(surface.n_faces(), 0);
+    left_out[leaving.idx()] = 1;
+    return connected_regions(surface, std::move(left_out)).size() > 1;
 }
 
 //! Sides to unhook, and one more for each vertex of negative defect.

@@ -3,6 +3,7 @@
 #include "core/design/merge.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <tuple>
@@ -128,6 +129,18 @@ tl::unexpected<Error> no_candidate(const Interfaces& a, const Interfaces& b, std
                   " near the intersection joins to a surface that can be built: turn or move a part");
 }
 
+//! At most \p count candidates that the best choices among \p loops of both surfaces make.
+Expected<std::vector<MergeCandidate>> candidates_of(const Meeting& where, const std::array<Interfaces, 2>& loops,
+                                                    const Element& element, const SeamOptions& wanted, int count)
+{
+    const auto choices = best_choices(loops[0], loops[1], element, wanted);
+    auto result = valid_candidates(choices, where.a.surface, where.b.surface, element, count);
+    if (result.empty()) {
+        return no_candidate(loops[0], loops[1], choices.size());
+    }
+    return result;
+}
+
 } // namespace
 
 Expected<std::vector<MergeCandidate>> four_candidates(const Surface& a, const Surface& b, const Element& element,
@@ -137,31 +150,21 @@ Expected<std::vector<MergeCandidate>> four_candidates(const Surface& a, const Su
     if (!where) {
         return tl::make_unexpected(where.error());
     }
-    const Interfaces first = paper_interfaces(where->a, element);
-    const Interfaces second = paper_interfaces(where->b, element);
-    const auto choices = best_choices(first, second, element, {1, choices_built, 4, options.symmetry});
-    auto result = valid_candidates(choices, a, b, element, options.count);
-    if (result.empty()) {
-        return no_candidate(first, second, choices.size());
-    }
-    return result;
+    return candidates_of(*where, {paper_interfaces(where->a, element), paper_interfaces(where->b, element)}, element,
+                         {1, choices_built, 4, options.symmetry}, options.count);
 }
 
 namespace {
 
 Expected<std::vector<MergeCandidate>> search(const Meeting& where, const Element& element, const MergeOptions& options)
 {
-    const Interfaces first = nearby_interfaces(where.a, element, interfaces_tried, subsets_tried);
-    const Interfaces second = nearby_interfaces(where.b, element, interfaces_tried, subsets_tried);
     SeamOptions wanted;
     wanted.count = choices_built;
     wanted.symmetry = options.symmetry;
-    const auto choices = best_choices(first, second, element, wanted);
-    auto result = valid_candidates(choices, where.a.surface, where.b.surface, element, options.count);
-    if (result.empty()) {
-        return no_candidate(first, second, choices.size());
-    }
-    return result;
+    return candidates_of(where,
+                         {nearby_interfaces(where.a, element, interfaces_tried, subsets_tried),
+                          nearby_interfaces(where.b, element, interfaces_tried, subsets_tried)},
+                         element, wanted, options.count);
 }
 
 bool looks_symmetric(const std::vector<MergeCandidate>& candidates, const Element& element)

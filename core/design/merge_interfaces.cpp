@@ -8,6 +8,7 @@
 
 #include "core/design/band_cut.h"
 #include "core/design/reference.h"
+#include "core/model/regions.h"
 
 namespace rhombloom {
 
@@ -17,22 +18,8 @@ namespace {
 std::vector<char> outside_elements(const Surface& surface, const std::vector<char>& intersecting, const Surface& other)
 {
     std::vector<char> outside(surface.n_faces(), 0);
-    std::vector<char> seen = intersecting;
-    for (const Face start : surface.faces()) {
-        if (seen[start.idx()]) {
-            continue;
-        }
-        std::vector<Face> region = {start};
-        seen[start.idx()] = 1;
-        for (std::size_t i = 0; i < region.size(); ++i) {
-            for (const Face g : surface.ff_range(region[i])) {
-                if (!seen[g.idx()]) {
-                    seen[g.idx()] = 1;
-                    region.push_back(g);
-                }
-            }
-        }
-        const bool out = winding_number(other, centre(surface, start)) < 0.5;
+    for (const std::vector<Face>& region : connected_regions(surface, intersecting)) {
+        const bool out = winding_number(other, centre(surface, region.front())) < 0.5;
         for (const Face f : region) {
             outside[f.idx()] = out ? 1 : 0;
         }

@@ -1,6 +1,7 @@
 #include "core/model/validity.h"
 
 #include "core/model/angular_defect.h"
+#include "core/model/regions.h"
 #include "core/text.h"
 
 namespace rhombloom {
@@ -23,31 +24,6 @@ int count_boundary_loops(const Surface& surface)
         }
     }
     return loops;
-}
-
-int count_parts(const Surface& surface)
-{
-    std::vector<bool> seen(surface.n_faces(), false);
-    int parts = 0;
-    for (const Face seed : surface.faces()) {
-        if (seen[seed.idx()]) {
-            continue;
-        }
-        ++parts;
-        std::vector<Face> stack = {seed};
-        seen[seed.idx()] = true;
-        while (!stack.empty()) {
-            const Face f = stack.back();
-            stack.pop_back();
-            for (const Face g : surface.ff_range(f)) {
-                if (!seen[g.idx()]) {
-                    seen[g.idx()] = true;
-                    stack.push_back(g);
-                }
-            }
-        }
-    }
-    return parts;
 }
 
 } // namespace
@@ -85,7 +61,7 @@ Validity validate(const Surface& surface, const Element& element)
         }
     }
     report.boundary_loops = count_boundary_loops(surface);
-    report.connected_parts = count_parts(surface);
+    report.connected_parts = static_cast<int>(connected_regions(surface).size());
     report.euler_characteristic = static_cast<int>(surface.n_vertices()) - static_cast<int>(surface.n_edges()) +
                                   static_cast<int>(surface.n_faces());
     if (report.connected_parts > 1) {
