@@ -78,15 +78,17 @@ Distance distance(const Surface& surface, const MeshTree& target, int samples)
     return result;
 }
 
-Eigen::Affine3d fit(const Surface& surface, const MeshTree& target, bool rescale)
+namespace {
+
+constexpr int fit_rounds = 6;
+constexpr int fit_samples = 1500; // of each surface
+
+Eigen::Affine3d fit_points(const std::vector<Vec3>& points, const MeshTree& target, bool rescale)
 {
-    constexpr int rounds = 6;
-    constexpr int samples = 1500;
-    const std::vector<Vec3> points = sample(element_triangles(surface), samples);
     Eigen::Affine3d pose = Eigen::Affine3d::Identity();
     Eigen::Matrix3Xd from(3, points.size());
     Eigen::Matrix3Xd to(3, points.size());
-    for (int i = 0; i < rounds; ++i) {
+    for (int i = 0; i < fit_rounds; ++i) {
         for (std::size_t k = 0; k < points.size(); ++k) {
             from.col(k) = points[k];
             to.col(k) = target.nearest(pose * points[k]).point;
@@ -94,6 +96,62 @@ Eigen::Affine3d fit(const Surface& surface, const MeshTree& target, bool rescale
         pose.matrix() = Eigen::umeyama(from, to, rescale);
     }
     return pose;
+}
+
+//! Points of either surface and what is nearest to them on the other.
+struct Pairs
+{
+    Eigen::Matrix3Xd from; //!< on the surface that is moved
+    Eigen::Matrix3Xd to;
+
+    double squares(const Eigen::Affine3d& pose) const { return (pose * from - to).squaredNorm(); }
+};
+
+Pairs pairs_at(const Eigen::Affine3d& pose, const MeshTree& moved, const MeshTree& target)
+{
+    const std::vector<Vec3> own = sample(moved.mesh(), fit_samples);
+    const std::vector<Vec3> others = sample(target.mesh(), fit_samples);
+    Pairs result;
+    result.from.resize(3, own.size() + others.size());
+    result.to.resize(3, result.from.cols());
+    Eigen::Index column = 0;
+    for (const Vec3& p : own) {
+        result.from.col(column) = p;
+        result.to.col(column++) = target.nearest(pose * p).point;
+    }
+    const Eigen::Affine3d back = pose.inverse();
+    for (const Vec3& p : others) {
+        result.from.col(column) = moved.nearest(back * p).point;
+        result.to.col(column++) = p;
+    }
+    return result;
+}
+
+Eigen::Affine3d fit_both(const MeshTree& moved, const MeshTree& target, bool rescale)
+{
+    Eigen::Affine3d pose = Eigen::Affine3d::Identity();
+    for (int i = 0; i < fit_rounds; ++i) {
+        const Pairs pairs = pairs_at(pose, moved, target);
+        pose.matrix() = Eigen::umeyama(pairs.from, pairs.to, rescale);
+    }
+    return pose;
+}
+
+} // namespace
+
+Eigen::Affine3d fit(const Surface& surface, const MeshTree& target, bool rescale)
+{
+    constexpr double close = 0.02; // of the target's size
+    constexpr double clearly = 0.8;
+    const MeshTree elements(element_triangles(surface));
+    const auto squares = [&](const Eigen::Affine3d& pose) { return pairs_at(pose, elements, target).squares(pose); };
+    const Eigen::Affine3d one_way = fit_points(sample(elements.mesh(), fit_samples), target, rescale);
+    const double one_way_squares = squares(one_way);
+    if (one_way_squares < 2 * fit_samples * (close * close * bounds(target.mesh()).sizes().squaredNorm())) {
+        return one_way;
+    }
+    const Eigen::Affine3d both_ways = fit_both(elements, target, rescale);
+    return squares(both_ways) < clearly * one_way_squares ? both_ways : one_way;
 }
 
 } // namespace rhombloom

@@ -31,7 +31,9 @@ std::vector<Vec3> sample(const TriangleMesh& mesh, int count);
 Distance distance(const Surface& surface, const MeshTree& target, int samples = 6000);
 
 //! \brief The similarity transform that brings \p surface nearest to \p target; with \p rescale false a rigid motion.
-//! \details Iterated closest points (Besl and McKay 1992) from the present pose.
+//! \details Iterated closest points (Besl and McKay 1992) from the present pose: from points of the surface to the
+//! target; where that does not come close, from points of either to the other as well: one way alone shrinks a surface
+//! whose limbs point elsewhere than its target's.
 Eigen::Affine3d fit(const Surface& surface, const MeshTree& target, bool rescale);
 
 } // namespace rhombloom

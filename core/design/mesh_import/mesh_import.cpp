@@ -8,6 +8,7 @@
 #include "core/design/mesh_import/network.h"
 #include "core/design/mesh_import/network_crossings.h"
 #include "core/design/mesh_import/network_search.h"
+#include "core/design/mesh_import/working_target.h"
 #include "core/model/angular_defect.h"
 #include "core/model/validity.h"
 #include "core/text.h"
@@ -108,6 +109,17 @@ int hard_nodes(const Surface& surface, const Element& element)
     return count;
 }
 
+//! That a share of the target is too thin for elements; empty when it is not.
+std::string thickness_remark(double share, const Element& element)
+{
+    if (share == 0) {
+        return {};
+    }
+    return to_fixed(100 * share, 0) + " % of the target is thinner than " + to_fixed(least_thickness(element), 0) +
+           " mm, the thinnest that elements of la " + to_fixed(element.la, 0) +
+           " mm can follow, and becomes as thick as that; with more elements less of it";
+}
+
 void fill_report(const Surface& surface, const FoundNetwork& found, ImportedMesh& result)
 {
     ImportReport& report = result.report;
@@ -145,7 +157,6 @@ Expected<ImportedMesh> import_mesh(const TriangleMesh& mesh, const ImportOptions
     if (!size) {
         return tl::make_unexpected(size.error());
     }
-    result.report.elements_asked = size->elements;
     TriangleMesh& whole = repaired->mesh; // the target in all its detail: what distances are measured from
     transform(whole, size->factor, Vec3::Zero());
     auto found =
@@ -154,6 +165,7 @@ Expected<ImportedMesh> import_mesh(const TriangleMesh& mesh, const ImportOptions
         return tl::make_unexpected(found.error());
     }
     result.target = std::move(found->target);
+    result.report.elements_asked = found->elements;
     result.report.scale = size->factor * found->target_scale;
     if (size->height > 0) {
         const double height = bounds(whole).sizes().z() * found->target_scale;
@@ -165,6 +177,9 @@ Expected<ImportedMesh> import_mesh(const TriangleMesh& mesh, const ImportOptions
     fill_report(found->surface, *found, result);
     result.operation = import_of(found->surface, options.id);
     result.operation.distance = stored(result.report.distance);
+    if (const std::string thin = thickness_remark(found->thickened, result.element); !thin.empty()) {
+        result.report.repairs.push_back(thin);
+    }
     if (const std::string far = distance_warning(result.operation, result.element); !far.empty()) {
         result.report.warnings.push_back(far);
     }

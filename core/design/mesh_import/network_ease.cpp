@@ -72,10 +72,11 @@ public:
     {
     }
 
-    void run()
+    long run()
     {
         while (best_.excess > 0 && !can_be_built(best_) && goes_on() && round()) {
         }
+        return work_;
     }
 
 private:
@@ -351,9 +352,9 @@ bool Easing::round()
 
 } // namespace
 
-void ease(Trial& best, const Trials& trials, double price, long work)
+long ease(Trial& best, const Trials& trials, double price, long work)
 {
-    Easing(best, trials, price, work).run();
+    return Easing(best, trials, price, work).run();
 }
 
 } // namespace rhombloom

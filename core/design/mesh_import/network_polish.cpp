@@ -40,7 +40,7 @@ public:
     {
     }
 
-    void run()
+    long run()
     {
         const auto& progress = trials_.options.progress;
         while (work_ > 0 && (round() || kick()) && (!progress || progress("easing the network"))) {
@@ -48,6 +48,7 @@ public:
         if (champion_ && score(*champion_, price_) < score(best_, price_)) {
             best_ = std::move(*champion_);
         }
+        return work_;
     }
 
 private:
@@ -254,9 +255,9 @@ bool Polishing::round()
 
 } // namespace
 
-void polish(Trial& best, const Trials& trials, double price, long work)
+long polish(Trial& best, const Trials& trials, double price, long work)
 {
-    Polishing(best, trials, price, work).run();
+    return Polishing(best, trials, price, work).run();
 }
 
 } // namespace rhombloom

@@ -9,11 +9,11 @@
 
 #include "core/design/mesh_import/curvature_match.h"
 #include "core/design/mesh_import/join_network.h"
-#include "core/design/mesh_import/mesh_decimate.h"
 #include "core/design/mesh_import/network_crossings.h"
 #include "core/design/mesh_import/network_ease.h"
 #include "core/design/mesh_import/network_trial.h"
 #include "core/design/mesh_import/remesh.h"
+#include "core/design/mesh_import/working_target.h"
 #include "core/design/pose.h"
 #include "core/form/parallel.h"
 #include "core/text.h"
@@ -22,22 +22,11 @@ namespace rhombloom {
 
 namespace {
 
-constexpr double detail = 6;                        // triangles' edges of the working target per edge of the network
 constexpr double count_tolerance = 0.08;            // of the number of elements, after remeshing
 constexpr double stretch_price = 25;                // la per unit of stretch beyond the limit, summed over the elements
 constexpr double crowding = 1e-2;                   // stretches beyond 1 % are mostly where vertices of degree 7 crowd
+constexpr long most_work = 100'000'000;             // iterations times elements in all: about four minutes
 constexpr std::size_t most_matched_vertices = 2500; // of the triangulation: a minute
-
-//! The target in triangles that are small for the network and even: quick to ask, whatever the file had.
-TriangleMesh even_target(const TriangleMesh& target, double edge)
-{
-    RemeshOptions options;
-    options.edge = edge / detail;
-    options.max_degree = 12;
-    options.rounds = 3;
-    const MeshTree reduced(decimate(target, edge / (2 * detail)));
-    return remesh(reduced.mesh(), reduced, options);
-}
 
 int edge_count(const TriangleMesh& mesh)
 {
@@ -203,16 +192,17 @@ bool is_nearer_built(const Trial& a, const Trial& b)
 }
 
 //! Ease those that cannot be built yet; when one can be, only those that are nearer. Those that can be built come
-//! first.
-void ease_all(std::vector<Trial>& found, const Trials& trials, double price, long work)
+//! first. \p left: work that is left for the whole search, of which each gets \p work at most.
+void ease_all(std::vector<Trial>& found, const Trials& trials, double price, long work, long& left)
 {
     constexpr double nearer = 0.95;
     std::stable_sort(found.begin(), found.end(), is_nearer_built);
     std::vector<Trial> eased;
     for (Trial& trial : found) {
         const bool is_behind = !eased.empty() && can_be_built(eased.front()) && trial.rms > nearer * eased.front().rms;
-        if (!can_be_built(trial) && !is_behind) {
-            ease(trial, trials, price, work);
+        if (!can_be_built(trial) && !is_behind && left > 0) {
+            const long given = std::min(work, left);
+            left -= given - ease(trial, trials, price, given);
         }
         eased.push_back(std::move(trial));
         std::stable_sort(eased.begin(), eased.end(), is_nearer_built);
@@ -221,8 +211,8 @@ void ease_all(std::vector<Trial>& found, const Trials& trials, double price, lon
 }
 
 //! The best of one attempt, eased. First all that promise to be near, shortly and without giving away much distance;
-//! when none of them can be built by that, for long and at any price.
-std::optional<Trial> attempt(const Trials& trials, int number)
+//! when none of them can be built by that, for long and at any price. \p left: work that is left for the whole search.
+std::optional<Trial> attempt(const Trials& trials, int number, long& left)
 {
     constexpr int large = 600; // elements; with more, what a long search has not found it does not find
     std::vector<Trial> found = finalists(starts(trials, number), number);
@@ -233,13 +223,13 @@ std::optional<Trial> attempt(const Trials& trials, int number)
     const long work = 6000L * elements; // iterations times elements
     const long long_work = 60000L * std::min(elements, large);
     for (Trial& trial : found) {
-        polish(trial, trials, stretch_price, work);
+        left -= work - polish(trial, trials, stretch_price, work);
     }
     std::vector<Trial> eased = found;
-    ease_all(eased, trials, stretch_price, 2 * work);
-    if (!can_be_built(eased.front())) {
+    ease_all(eased, trials, stretch_price, 2 * work, left);
+    if (!can_be_built(eased.front()) && left > 0) {
         eased = std::move(found); // as they were: what did not lead to the end has led astray
-        ease_all(eased, trials, 4 * stretch_price, long_work);
+        ease_all(eased, trials, 4 * stretch_price, long_work, left);
     }
     return std::move(eased.front());
 }
@@ -250,15 +240,19 @@ Expected<FoundNetwork> search_network(const TriangleMesh& target, const Element&
 {
     const auto tell = [&](const std::string& what) { return !options.progress || options.progress(what); };
     tell("simplifying the target");
-    const MeshTree tree(even_target(target, triangle_edge(element)));
+    WorkingTarget working = working_target(target, triangle_edge(element), options.rescale ? options.elements : 0);
+    const MeshTree tree(std::move(working.thick));
+    SearchOptions searching = options;
+    searching.elements = working.elements;
     if (!tell("remeshing")) {
         return refuse("stopped");
     }
-    Trials trials{tree, element, options};
-    const int attempts = std::clamp(2400 / options.elements, 2, 8); // few elements settle quickly
+    Trials trials{tree, element, searching};
+    const int attempts = std::clamp(2400 / searching.elements, 2, 8); // few elements settle quickly
+    long left = most_work;
     std::optional<Trial> best;
-    for (int k = 0; k < attempts && !(best && can_be_built(*best)); ++k) {
-        auto next = attempt(trials, k);
+    for (int k = 0; k < attempts && left > 0 && !(best && can_be_built(*best)); ++k) {
+        auto next = attempt(trials, k, left);
         if (next && (!best || can_be_built(*next) || is_better(*next, *best))) {
             best = std::move(next);
         }
@@ -267,15 +261,18 @@ Expected<FoundNetwork> search_network(const TriangleMesh& target, const Element&
         }
     }
     if (!best) {
-        return refuse("no network of " + std::to_string(options.elements) +
+        return refuse("no network of " + std::to_string(searching.elements) +
                       " elements comes to rest on this target: try more elements");
     }
     FoundNetwork network = std::move(best->found);
     EmbedOptions exact = options.embedding;
     exact.start = Start::Edited;
     network.embedding = embed_in_place(network.surface, element, exact);
-    network.target = tree.mesh();
+    network.target = std::move(working.even);
     transform(network.target, network.target_scale, Vec3::Zero());
+    network.target_scale *= working.scale;
+    network.thickened = working.thickened;
+    network.elements = working.elements;
     return network;
 }
 

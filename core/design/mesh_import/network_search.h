@@ -10,7 +10,7 @@ namespace rhombloom {
 struct SearchOptions
 {
     int elements = 600;
-    bool rescale = true; //!< the target may be scaled to suit the elements
+    bool rescale = true; //!< the target may be scaled to suit the elements; if not, thin parts take some more of them
     EmbedOptions embedding;
     //! Told what is being done; false stops. Empty: nobody listens.
     std::function<bool(const std::string&)> progress;
@@ -23,6 +23,8 @@ struct FoundNetwork
     Distance distance;       //!< mm
     double target_scale = 1; //!< about the origin
     TriangleMesh target;     //!< in even triangles, scaled
+    double thickened = 0;    //!< share of the target's area that was too thin for elements, and was made thicker
+    int elements = 0;        //!< that were looked for
 };
 
 //! \brief Edge length of the triangles whose edges carry elements, as it settles, mm.

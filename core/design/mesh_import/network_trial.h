@@ -77,7 +77,7 @@ bool is_permissible(const Plan& plan, const Trials& trials);
 std::optional<Trial> settle(const Plan& plan, const Trials& trials);
 
 //! \brief Change the plan where elements are overstretched or far from the target, by flips, splits and elements turned
-//! over, as long as the score falls and less than \p work iterations times elements are spent.
-void polish(Trial& best, const Trials& trials, double price, long work);
+//! over, as long as the score falls and less than \p work iterations times elements are spent. Returns what is left.
+long polish(Trial& best, const Trials& trials, double price, long work);
 
 } // namespace rhombloom

@@ -10,7 +10,10 @@
 #include "core/design/mesh_import/mesh_repair.h"
 #include "core/design/mesh_import/mesh_wrap.h"
 #include "core/design/mesh_import/network_moves.h"
+#include "core/design/mesh_import/network_search.h"
 #include "core/design/mesh_import/remesh.h"
+#include "core/design/mesh_import/thicken.h"
+#include "core/design/mesh_import/working_target.h"
 #include "core/model/triangulation.h"
 #include "core/model/validity.h"
 
@@ -59,6 +62,29 @@ TriangleMesh ball_with_limb()
         }
     }
     return mesh;
+}
+
+TriangleMesh box(const Vec3& sizes)
+{
+    TriangleMesh mesh;
+    for (int k = 0; k < 8; ++k) {
+        mesh.points.emplace_back(sizes.cwiseProduct(Vec3(k & 1, k >> 1 & 1, k >> 2 & 1)));
+    }
+    mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    return mesh;
+}
+
+//! From the network of \p triangles; the middles of its triangles lie in their planes.
+Surface flat_join(const TriangleMesh& triangles)
+{
+    std::vector<Vec3> middles;
+    for (const Triangle& t : triangles.triangles) {
+        middles.emplace_back((triangles.points[t[0]] + triangles.points[t[1]] + triangles.points[t[2]]) / 3);
+    }
+    auto surface = make_surface(join_network(triangles, middles));
+    EXPECT_TRUE(surface) << (surface ? "" : surface.error().message);
+    return std::move(*surface);
 }
 
 ImportedMesh imported_ball()
@@ -133,6 +159,54 @@ TEST(Remesh, KeepsALimbThinnerThanAnEdge)
     RemeshOptions options;
     options.edge = 60;
     EXPECT_GT(bounds(remesh(tree.mesh(), tree, options)).max().z(), 370);
+}
+
+TEST(WorkingTarget, LeavesWhatIsThickEnoughAsItIs)
+{
+    const WorkingTarget working = working_target(sphere(100), 40, 0);
+    EXPECT_EQ(working.thickened, 0);
+    EXPECT_EQ(working.scale, 1);
+    EXPECT_EQ(working.thick.points.size(), working.even.points.size());
+}
+
+TEST(WorkingTarget, ALimbBecomesAsThickAsElementsCanFollow)
+{
+    constexpr double edge = 100; // the limb's radius is 18
+    const WorkingTarget working = working_target(ball_with_limb(), edge, 0);
+    EXPECT_GT(working.thickened, 0.05);
+    const MeshTree tree(working.thick);
+    for (const double z : {200.0, 250.0, 300.0, 350.0}) {
+        EXPECT_NEAR(tree.nearest({0, 0, z}).distance, 0.35 * edge, 0.04 * edge) << z;
+    }
+    EXPECT_NEAR(tree.nearest({0, 0, -100}).distance, 0, 0.04 * edge); // the ball stays
+    EXPECT_EQ(working.thick.points.size() - working.thick.triangles.size() / 2, 2U);
+}
+
+TEST(WorkingTarget, APlateBecomesACushionThatSoManyElementsCover)
+{
+    constexpr double edge = 10;
+    constexpr int elements = 600;
+    const WorkingTarget working = working_target(box({100, 80, 2}), edge, elements);
+    EXPECT_GT(working.thickened, 0.9);
+    EXPECT_NEAR(MeshTree(working.thick).nearest(working.scale * Vec3(50, 40, 1)).distance, 0.35 * edge, 0.05 * edge);
+    EXPECT_NEAR(area(working.thick) / area_per_element(edge), elements, 0.02 * elements);
+    EXPECT_NEAR(bounds(working.even).sizes().x(), 100 * working.scale, 0.5);
+}
+
+TEST(Fit, ALimbThatPointsElsewhereDoesNotShrinkTheSurface)
+{
+    const MeshTree target(ball_with_limb());
+    RemeshOptions options;
+    options.edge = 20;
+    TriangleMesh bent = remesh(target.mesh(), target, options);
+    const Vec3 root(0, 0, 90);
+    const Eigen::AngleAxisd turn(radians(90), Vec3::UnitX());
+    for (Vec3& p : bent.points) {
+        p = p.z() > root.z() ? Vec3(root + turn * (p - root)) : p;
+    }
+    const Eigen::Affine3d pose = fit(flat_join(bent), target, true);
+    EXPECT_NEAR(std::cbrt(pose.linear().determinant()), 1, 0.08);
+    EXPECT_NEAR(fit(flat_join(bent), target, false).linear().determinant(), 1, 1e-9);
 }
 
 TEST(Repair, LeavesASoundMeshAlone)
@@ -268,6 +342,19 @@ TEST(ImportMesh, WarnsWhenTheElementsEndFarFromTheTarget)
     EXPECT_NE(warning.find("--elements " + std::to_string(4 * far.quads.size())), std::string::npos) << warning;
     far.distance.reset();
     EXPECT_TRUE(distance_warning(far, made.element).empty());
+}
+
+TEST(ImportMesh, AThinPlateIsMadeThickEnoughAndThatIsTold)
+{
+    ImportOptions options;
+    options.size.elements = 150;
+    const auto made = import_mesh(box({100, 80, 2}), options);
+    ASSERT_TRUE(made) << made.error().message;
+    ASSERT_FALSE(made->report.repairs.empty());
+    EXPECT_NE(made->report.repairs.back().find("of the target is thinner than"), std::string::npos)
+        << made->report.repairs.back();
+    EXPECT_LT(made->report.distance.rms(), 0.7 * made->element.la);
+    EXPECT_NEAR(bounds(made->target).sizes().z() / bounds(made->target).sizes().x(), 0.02, 0.005); // as it was given
 }
 
 TEST(NetworkMoves, AFlipReplacesAnElementASplitAddsThreeACollapseTakesThreeATurnIsUndone)

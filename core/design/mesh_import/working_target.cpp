@@ -1,0 +1,60 @@
+#include "core/design/mesh_import/working_target.h"
+
+#include <cmath>
+
+#include "core/design/mesh_import/mesh_decimate.h"
+#include "core/design/mesh_import/network_search.h"
+#include "core/design/mesh_import/remesh.h"
+#include "core/design/mesh_import/thicken.h"
+
+namespace rhombloom {
+
+namespace {
+
+constexpr double detail = 6; // triangles' edges of the working target per edge of the network
+//! Of the thinnest limb, in edges of the network: tubes of three triangles around do not settle, or bend at their
+//! roots.
+constexpr double least_radius = 0.35;
+
+//! The target in triangles that are small for the network and even: quick to ask, whatever the file had.
+TriangleMesh even_target(const TriangleMesh& target, double edge)
+{
+    RemeshOptions options;
+    options.edge = edge / detail;
+    options.max_degree = 12;
+    options.rounds = 3;
+    const MeshTree reduced(decimate(target, edge / (2 * detail)));
+    return remesh(reduced.mesh(), reduced, options);
+}
+
+} // namespace
+
+double least_thickness(const Element& element)
+{
+    return 2 * least_radius * triangle_edge(element);
+}
+
+WorkingTarget working_target(const TriangleMesh& target, double edge, int elements)
+{
+    constexpr int most_rounds = 4;
+    constexpr double near = 0.01;
+    WorkingTarget result;
+    TriangleMesh scaled = target;
+    for (int round = 0; round < most_rounds; ++round) {
+        result.even = even_target(scaled, edge);
+        ThickenedMesh thickened = thicken(result.even, {least_radius * edge, edge / detail});
+        result.thick = std::move(thickened.mesh);
+        result.thickened = thickened.share;
+        const double count = area(result.thick) / area_per_element(edge);
+        result.elements = elements > 0 ? elements : static_cast<int>(std::lround(count));
+        const double factor = std::sqrt(result.elements / count);
+        if (elements == 0 || result.thickened == 0 || std::abs(factor - 1) < near) {
+            break;
+        }
+        transform(scaled, factor, Vec3::Zero());
+        result.scale *= factor;
+    }
+    return result;
+}
+
+} // namespace rhombloom
