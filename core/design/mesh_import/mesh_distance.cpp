@@ -80,24 +80,6 @@ Distance distance(const Surface& surface, const MeshTree& target, int samples)
 
 namespace {
 
-constexpr int fit_rounds = 6;
-constexpr int fit_samples = 1500; // of each surface
-
-Eigen::Affine3d fit_points(const std::vector<Vec3>& points, const MeshTree& target, bool rescale)
-{
-    Eigen::Affine3d pose = Eigen::Affine3d::Identity();
-    Eigen::Matrix3Xd from(3, points.size());
-    Eigen::Matrix3Xd to(3, points.size());
-    for (int i = 0; i < fit_rounds; ++i) {
-        for (std::size_t k = 0; k < points.size(); ++k) {
-            from.col(k) = points[k];
-            to.col(k) = target.nearest(pose * points[k]).point;
-        }
-        pose.matrix() = Eigen::umeyama(from, to, rescale);
-    }
-    return pose;
-}
-
 //! Points of either surface and what is nearest to them on the other.
 struct Pairs
 {
@@ -107,35 +89,57 @@ struct Pairs
     double squares(const Eigen::Affine3d& pose) const { return (pose * from - to).squaredNorm(); }
 };
 
-Pairs pairs_at(const Eigen::Affine3d& pose, const MeshTree& moved, const MeshTree& target)
+class Fitting
 {
-    const std::vector<Vec3> own = sample(moved.mesh(), fit_samples);
-    const std::vector<Vec3> others = sample(target.mesh(), fit_samples);
-    Pairs result;
-    result.from.resize(3, own.size() + others.size());
-    result.to.resize(3, result.from.cols());
-    Eigen::Index column = 0;
-    for (const Vec3& p : own) {
-        result.from.col(column) = p;
-        result.to.col(column++) = target.nearest(pose * p).point;
+public:
+    Fitting(const Surface& surface, const MeshTree& target)
+        : elements_(element_triangles(surface)), target_(target), own_(sample(elements_.mesh(), samples)),
+          others_(sample(target.mesh(), samples))
+    {
     }
-    const Eigen::Affine3d back = pose.inverse();
-    for (const Vec3& p : others) {
-        result.from.col(column) = moved.nearest(back * p).point;
-        result.to.col(column++) = p;
-    }
-    return result;
-}
 
-Eigen::Affine3d fit_both(const MeshTree& moved, const MeshTree& target, bool rescale)
-{
-    Eigen::Affine3d pose = Eigen::Affine3d::Identity();
-    for (int i = 0; i < fit_rounds; ++i) {
-        const Pairs pairs = pairs_at(pose, moved, target);
-        pose.matrix() = Eigen::umeyama(pairs.from, pairs.to, rescale);
+    //! Iterated closest points of the surface's own points, or of the target's as well.
+    Eigen::Affine3d pose(bool rescale, bool both_ways) const
+    {
+        constexpr int rounds = 6;
+        Eigen::Affine3d pose = Eigen::Affine3d::Identity();
+        for (int i = 0; i < rounds; ++i) {
+            const Pairs pairs = this->pairs(pose, both_ways);
+            pose.matrix() = Eigen::umeyama(pairs.from, pairs.to, rescale);
+        }
+        return pose;
     }
-    return pose;
-}
+
+    //! Mean square of the distances, both ways.
+    double mean_square(const Eigen::Affine3d& pose) const { return pairs(pose, true).squares(pose) / (2 * samples); }
+
+private:
+    static constexpr int samples = 1500; // of each surface
+
+    Pairs pairs(const Eigen::Affine3d& pose, bool both_ways) const
+    {
+        Pairs result;
+        result.from.resize(3, own_.size() + (both_ways ? others_.size() : 0));
+        result.to.resize(3, result.from.cols());
+        Eigen::Index column = 0;
+        for (const Vec3& p : own_) {
+            result.from.col(column) = p;
+            result.to.col(column++) = target_.nearest(pose * p).point;
+        }
+        const Eigen::Affine3d back = pose.inverse();
+        for (; column < result.from.cols(); ++column) {
+            const Vec3& p = others_[column - static_cast<Eigen::Index>(own_.size())];
+            result.from.col(column) = elements_.nearest(back * p).point;
+            result.to.col(column) = p;
+        }
+        return result;
+    }
+
+    MeshTree elements_;
+    const MeshTree& target_;
+    std::vector<Vec3> own_;
+    std::vector<Vec3> others_;
+};
 
 } // namespace
 
@@ -143,15 +147,14 @@ Eigen::Affine3d fit(const Surface& surface, const MeshTree& target, bool rescale
 {
     constexpr double close = 0.02; // of the target's size
     constexpr double clearly = 0.8;
-    const MeshTree elements(element_triangles(surface));
-    const auto squares = [&](const Eigen::Affine3d& pose) { return pairs_at(pose, elements, target).squares(pose); };
-    const Eigen::Affine3d one_way = fit_points(sample(elements.mesh(), fit_samples), target, rescale);
-    const double one_way_squares = squares(one_way);
-    if (one_way_squares < 2 * fit_samples * (close * close * bounds(target.mesh()).sizes().squaredNorm())) {
+    const Fitting fitting(surface, target);
+    const Eigen::Affine3d one_way = fitting.pose(rescale, false);
+    const double off = fitting.mean_square(one_way);
+    if (off < close * close * bounds(target.mesh()).sizes().squaredNorm()) {
         return one_way;
     }
-    const Eigen::Affine3d both_ways = fit_both(elements, target, rescale);
-    return squares(both_ways) < clearly * one_way_squares ? both_ways : one_way;
+    const Eigen::Affine3d both_ways = fitting.pose(rescale, true);
+    return fitting.mean_square(both_ways) < clearly * off ? both_ways : one_way;
 }
 
 } // namespace rhombloom

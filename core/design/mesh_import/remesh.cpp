@@ -244,4 +244,13 @@ TriangleMesh remesh(const TriangleMesh& start, const MeshTree& target, const Rem
     return triangle_mesh(mesh);
 }
 
+TriangleMesh evened(const MeshTree& mesh, double edge)
+{
+    RemeshOptions options;
+    options.edge = edge;
+    options.max_degree = 12;
+    options.rounds = 3;
+    return remesh(mesh.mesh(), mesh, options);
+}
+
 } // namespace rhombloom

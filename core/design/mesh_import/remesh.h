@@ -17,6 +17,9 @@ struct RemeshOptions
 //! that of \p start step by step, so that thin limbs and handles are thinned out instead of cut off.
 TriangleMesh remesh(const TriangleMesh& start, const MeshTree& target, const RemeshOptions& options);
 
+//! \brief \p mesh in even triangles with sides of length \p edge, quickly: to be measured from, not to carry elements.
+TriangleMesh evened(const MeshTree& mesh, double edge);
+
 //! \brief Split the longest or collapse the shortest edges until \p mesh has about \p edges of them: three more or less
 //! each time, so within two where nothing stands in the way.
 TriangleMesh with_edge_count(const TriangleMesh& mesh, const MeshTree& target, int edges, const RemeshOptions& options);

@@ -108,12 +108,7 @@ ThickenedMesh thicken(const TriangleMesh& even, const ThickenOptions& options)
         for (std::size_t v = 0; v < move.size(); ++v) {
             result.mesh.points[v] += move[v] / left * normals[v];
         }
-        RemeshOptions remeshing;
-        remeshing.edge = options.edge;
-        remeshing.max_degree = 12;
-        remeshing.rounds = 3;
-        const MeshTree moved(result.mesh);
-        result.mesh = remesh(moved.mesh(), moved, remeshing);
+        result.mesh = evened(MeshTree(std::move(result.mesh)), options.edge);
     }
     return result;
 }

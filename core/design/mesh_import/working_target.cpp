@@ -19,12 +19,7 @@ constexpr double least_radius = 0.35;
 //! The target in triangles that are small for the network and even: quick to ask, whatever the file had.
 TriangleMesh even_target(const TriangleMesh& target, double edge)
 {
-    RemeshOptions options;
-    options.edge = edge / detail;
-    options.max_degree = 12;
-    options.rounds = 3;
-    const MeshTree reduced(decimate(target, edge / (2 * detail)));
-    return remesh(reduced.mesh(), reduced, options);
+    return evened(MeshTree(decimate(target, edge / (2 * detail))), edge / detail);
 }
 
 } // namespace
