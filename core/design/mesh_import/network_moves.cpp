@@ -239,6 +239,23 @@ std::vector<int> numbers(const EditMesh& mesh)
     return result;
 }
 
+//! Where a corner is meant to be; a new one in the middle of those around it.
+Vec3 meant(VertexHandle v, const EditMesh& mesh, const Plan& plan)
+{
+    if (v.idx() < static_cast<int>(plan.meant.size())) {
+        return plan.meant[v.idx()];
+    }
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+    for (const auto w : mesh.vv_range(v)) {
+        if (w.idx() < static_cast<int>(plan.meant.size())) {
+            sum += plan.meant[w.idx()];
+            ++count;
+        }
+    }
+    return sum / std::max(count, 1);
+}
+
 } // namespace
 
 Plan carry_out(const std::vector<Move>& moves, const Plan& before)
@@ -269,6 +286,11 @@ Plan carry_out(const std::vector<Move>& moves, const Plan& before)
         if (!plan.origin.empty()) {
             const auto k = static_cast<std::size_t>(v.idx());
             result.origin.push_back(k < plan.origin.size() ? plan.origin[k] : -1);
+        }
+    }
+    if (!plan.meant.empty()) {
+        for (const auto v : mesh.vertices()) {
+            result.meant.push_back(meant(v, mesh, plan));
         }
     }
     for (const auto f : mesh.faces()) {

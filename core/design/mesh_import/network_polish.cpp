@@ -35,8 +35,9 @@ struct Chosen
 class Polishing
 {
 public:
-    Polishing(Trial& best, const Trials& trials, double price, long work)
-        : best_(best), trials_(trials), price_(price), work_(work), radius_(reach * triangle_edge(trials.element))
+    Polishing(Trial& best, const Trials& trials, Aim aim, double price, long work)
+        : best_(best), trials_(trials), aim_(aim), price_(price), work_(work),
+          radius_(reach * triangle_edge(trials.element))
     {
     }
 
@@ -45,7 +46,7 @@ public:
         const auto& progress = trials_.options.progress;
         while (work_ > 0 && (round() || kick()) && (!progress || progress("easing the network"))) {
         }
-        if (champion_ && score(*champion_, price_) < score(best_, price_)) {
+        if (champion_ && score(*champion_) < score(best_)) {
             best_ = std::move(*champion_);
         }
         return work_;
@@ -55,6 +56,9 @@ private:
     bool round();
     bool kick();
     std::vector<Place> places();
+    double off(const Trial& trial) const { return aim_ == Aim::Near ? trial.rms : trial.astray; }
+    double score(const Trial& trial) const { return off(trial) + price_ * trial.excess; }
+    double share(const ElementRating& rating) const;
     double badness(const Trial& trial, std::size_t element) const;
     double badness_near(const Trial& trial, const Vec3& where) const;
     std::vector<std::optional<Trial>> settle_all(const std::vector<std::vector<Move>>& sets);
@@ -64,23 +68,32 @@ private:
 
     Trial& best_;
     const Trials& trials_;
+    Aim aim_;
     double price_;
     long work_;
     double radius_;
-    int in_vain_ = 0; //!< rounds without a gain, in a row
+    double bends_ = 0; //!< of all elements of the best
+    int in_vain_ = 0;  //!< rounds without a gain, in a row
     int kicks_ = 0;
     std::optional<Trial> champion_;        //!< the best so far, when a kick has left it
     std::optional<Trial> runner_up_;       //!< the best of what was tried since the last gain
     std::map<Corners, std::size_t> tried_; //!< how many of a place's moves were in vain
 };
 
-//! What an element adds to the score, to first order.
+//! What an element adds to the distance: to first order; of bends, such that they add up to half of it as well.
+double Polishing::share(const ElementRating& rating) const
+{
+    if (aim_ == Aim::Near) {
+        return rating.distance * rating.distance / (2 * best_.rms * static_cast<double>(best_.ratings.size()));
+    }
+    return rating.bend * best_.astray / (2 * bends_);
+}
+
+//! What an element adds to the score.
 double Polishing::badness(const Trial& trial, std::size_t element) const
 {
     const ElementRating& rating = trial.ratings[element];
-    const double share =
-        rating.distance * rating.distance / (2 * best_.rms * static_cast<double>(best_.ratings.size()));
-    return price_ * excess_stretch(rating.stretch) + share;
+    return price_ * excess_stretch(rating.stretch) + share(rating);
 }
 
 double Polishing::badness_near(const Trial& trial, const Vec3& where) const
@@ -171,8 +184,7 @@ bool Polishing::take(std::vector<std::optional<Trial>>& candidates)
 {
     bool taken = false;
     for (std::optional<Trial>& candidate : candidates) {
-        if (candidate && keeps_count(*candidate, best_, trials_) &&
-            score(*candidate, price_) < score(best_, price_) - least_gain) {
+        if (candidate && keeps_count(*candidate, best_, trials_) && score(*candidate) < score(best_) - least_gain) {
             best_ = std::move(*candidate);
             taken = true;
         }
@@ -187,7 +199,7 @@ void Polishing::remember(std::vector<std::optional<Trial>>& candidates)
     }
     for (std::optional<Trial>& candidate : candidates) {
         if (candidate && keeps_count(*candidate, best_, trials_) &&
-            (!runner_up_ || score(*candidate, price_) < score(*runner_up_, price_))) {
+            (!runner_up_ || score(*candidate) < score(*runner_up_))) {
             runner_up_ = std::move(candidate);
         }
     }
@@ -200,7 +212,7 @@ bool Polishing::kick()
         return false;
     }
     ++kicks_;
-    if (!champion_ || score(best_, price_) < score(*champion_, price_)) {
+    if (!champion_ || score(best_) < score(*champion_)) {
         champion_ = std::move(best_);
     }
     best_ = std::move(*runner_up_);
@@ -212,6 +224,8 @@ bool Polishing::kick()
 
 bool Polishing::round()
 {
+    bends_ = std::accumulate(best_.ratings.begin(), best_.ratings.end(), 1e-12,
+                             [](double sum, const ElementRating& rating) { return sum + rating.bend; });
     const std::vector<Place> places = this->places();
     if (places.empty()) {
         return false;
@@ -255,9 +269,9 @@ bool Polishing::round()
 
 } // namespace
 
-long polish(Trial& best, const Trials& trials, double price, long work)
+long polish(Trial& best, const Trials& trials, Aim aim, double price, long work)
 {
-    return Polishing(best, trials, price, work).run();
+    return Polishing(best, trials, aim, price, work).run();
 }
 
 } // namespace rhombloom

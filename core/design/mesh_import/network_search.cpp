@@ -26,6 +26,8 @@ constexpr double count_tolerance = 0.08;            // of the number of elements
 constexpr double stretch_price = 25;                // la per unit of stretch beyond the limit, summed over the elements
 constexpr double crowding = 1e-2;                   // stretches beyond 1 % are mostly where vertices of degree 7 crowd
 constexpr long most_work = 100'000'000;             // iterations times elements in all: about four minutes
+constexpr long most_straightening = 70'000'000;     // of that unit, besides: half a minute
+constexpr long polishing = 6000;                    // iterations per network
 constexpr std::size_t most_matched_vertices = 2500; // of the triangulation: a minute
 
 int edge_count(const TriangleMesh& mesh)
@@ -93,7 +95,7 @@ namespace {
 
 Plan plan_of(const TriangleMesh& triangles, const MeshTree& target)
 {
-    return {triangles, triangle_middles(triangles, target), {}, 1, {}};
+    return {triangles, triangle_middles(triangles, target), {}, 1, triangles.points};
 }
 
 bool is_better(const Trial& a, const Trial& b)
@@ -167,6 +169,14 @@ std::vector<Trial> starts(const Trials& trials, int attempt)
     return result;
 }
 
+//! Different ways of matching may end in one network.
+bool is_same(const Trial& a, const Trial& b)
+{
+    constexpr double same = 1e-6;
+    return a.ratings.size() == b.ratings.size() && std::abs(a.rms - b.rms) < same &&
+           std::abs(a.excess - b.excess) < same;
+}
+
 //! Three to be polished: which of them ends best cannot be told yet. Much stretch can be eased at little cost, so at
 //! first it counts little; when that has come to nothing, those with the least are taken first.
 std::vector<Trial> finalists(std::vector<Trial> found, int attempt)
@@ -174,6 +184,10 @@ std::vector<Trial> finalists(std::vector<Trial> found, int attempt)
     const std::array prices = attempt == 0 ? std::array{4.0, 0.5, stretch_price} : std::array{stretch_price, 4.0, 0.5};
     std::vector<Trial> result;
     for (const double price : prices) {
+        const auto is_taken = [&](const Trial& trial) {
+            return std::any_of(result.begin(), result.end(), [&](const Trial& other) { return is_same(trial, other); });
+        };
+        found.erase(std::remove_if(found.begin(), found.end(), is_taken), found.end());
         const auto best = std::min_element(found.begin(), found.end(), [price](const Trial& a, const Trial& b) {
             return score(a, price) < score(b, price);
         });
@@ -183,6 +197,25 @@ std::vector<Trial> finalists(std::vector<Trial> found, int attempt)
         }
     }
     return result;
+}
+
+//! Networks whose corners are far from where they were meant to be: limbs point elsewhere. All shortly, then the best
+//! for long. Returns what is left of \p work.
+long straighten(std::vector<Trial>& found, const Trials& trials, long work)
+{
+    constexpr double far = 1;   // la
+    constexpr double price = 1; // of stretch: it can be eased afterwards
+    const auto is_far = [](const Trial& trial) { return trial.astray > far; };
+    const auto straightness = [](const Trial& trial) { return trial.astray + price * trial.excess; };
+    const long first = work / 6;
+    for (Trial& trial : found) {
+        if (is_far(trial) && work > 0) {
+            work -= first - polish(trial, trials, Aim::Straight, price, first);
+        }
+    }
+    Trial& best = *std::min_element(found.begin(), found.end(),
+                                    [&](const Trial& a, const Trial& b) { return straightness(a) < straightness(b); });
+    return is_far(best) && work > 0 ? polish(best, trials, Aim::Straight, price, work) : work;
 }
 
 bool is_nearer_built(const Trial& a, const Trial& b)
@@ -210,9 +243,16 @@ void ease_all(std::vector<Trial>& found, const Trials& trials, double price, lon
     found = std::move(eased);
 }
 
+//! Work that is left for the whole search, iterations times elements.
+struct Left
+{
+    long straightening = 0;
+    long others = most_work;
+};
+
 //! The best of one attempt, eased. First all that promise to be near, shortly and without giving away much distance;
-//! when none of them can be built by that, for long and at any price. \p left: work that is left for the whole search.
-std::optional<Trial> attempt(const Trials& trials, int number, long& left)
+//! when none of them can be built by that, for long and at any price.
+std::optional<Trial> attempt(const Trials& trials, int number, Left& left)
 {
     constexpr int large = 600; // elements; with more, what a long search has not found it does not find
     std::vector<Trial> found = finalists(starts(trials, number), number);
@@ -220,16 +260,17 @@ std::optional<Trial> attempt(const Trials& trials, int number, long& left)
         return std::nullopt;
     }
     const int elements = trials.options.elements;
-    const long work = 6000L * elements; // iterations times elements
+    const long work = polishing * elements; // iterations times elements
     const long long_work = 60000L * std::min(elements, large);
+    left.straightening = straighten(found, trials, left.straightening);
     for (Trial& trial : found) {
-        left -= work - polish(trial, trials, stretch_price, work);
+        left.others -= work - polish(trial, trials, Aim::Near, stretch_price, work);
     }
     std::vector<Trial> eased = found;
-    ease_all(eased, trials, stretch_price, 2 * work, left);
-    if (!can_be_built(eased.front()) && left > 0) {
+    ease_all(eased, trials, stretch_price, 2 * work, left.others);
+    if (!can_be_built(eased.front()) && left.others > 0) {
         eased = std::move(found); // as they were: what did not lead to the end has led astray
-        ease_all(eased, trials, 4 * stretch_price, long_work, left);
+        ease_all(eased, trials, 4 * stretch_price, long_work, left.others);
     }
     return std::move(eased.front());
 }
@@ -249,9 +290,9 @@ Expected<FoundNetwork> search_network(const TriangleMesh& target, const Element&
     }
     Trials trials{tree, element, searching};
     const int attempts = std::clamp(2400 / searching.elements, 2, 8); // few elements settle quickly
-    long left = most_work;
+    Left left{std::min(most_straightening, 20 * polishing * searching.elements)};
     std::optional<Trial> best;
-    for (int k = 0; k < attempts && left > 0 && !(best && can_be_built(*best)); ++k) {
+    for (int k = 0; k < attempts && left.others > 0 && !(best && can_be_built(*best)); ++k) {
         auto next = attempt(trials, k, left);
         if (next && (!best || can_be_built(*next) || is_better(*next, *best))) {
             best = std::move(next);

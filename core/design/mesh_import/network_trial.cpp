@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/design/mesh_import/join_network.h"
+#include "core/design/mesh_import/network_bends.h"
 #include "core/design/mesh_import/network_crossings.h"
 #include "core/design/pose.h"
 #include "core/model/element_stretch.h"
@@ -36,6 +37,21 @@ void rate_elements(const Surface& surface, const Trials& trials, Trial& trial)
         rating.middle = sum / 4;
         rating.distance = trials.target.nearest(rating.middle).distance / trials.element.la;
     }
+}
+
+//! After the trial's plan and surface.
+void rate_bends(const Trials& trials, Trial& trial)
+{
+    const Plan& plan = trial.plan;
+    if (plan.meant.empty()) {
+        return;
+    }
+    const std::vector<Eigen::Matrix3d> turned = turns(plan.triangles, plan.meant);
+    for (const Face f : trial.found.surface.faces()) {
+        const Quad q = quad(trial.found.surface, f);
+        trial.ratings[f.idx()].bend = (turned[q[0]] - turned[q[2]]).squaredNorm();
+    }
+    trial.astray = astray(plan.triangles.points, plan.meant, trials.options.rescale) / plan.scale / trials.element.la;
 }
 
 EmbedReport embed_quickly(Surface& surface, const Trials& trials)
@@ -127,6 +143,7 @@ std::optional<Trial> settle(const Plan& plan, const Trials& trials)
     rate_elements(*surface, trials, trial);
     trial.plan.triangles.triangles = plan.triangles.triangles;
     trial.plan.flipped = plan.flipped;
+    trial.plan.meant = plan.meant;
     for (const Vertex v : surface->vertices()) {
         const bool corner = v.idx() < static_cast<int>(plan.triangles.points.size());
         (corner ? trial.plan.triangles.points : trial.plan.middles).push_back(surface->point(v));
@@ -142,6 +159,7 @@ std::optional<Trial> settle(const Plan& plan, const Trials& trials)
     trial.rms = trial.found.distance.rms() / scale / trials.element.la;
     trial.found.target_scale = 1 / scale;
     trial.found.surface = std::move(*surface);
+    rate_bends(trials, trial);
     trial.cost = static_cast<long>(stretch.size()) * (trial.found.embedding.iterations + 20);
     return trial;
 }

@@ -26,6 +26,7 @@ struct Plan
     std::vector<Vec3> middles; //!< of the triangles
     std::set<Corners> flipped; //!< elements that are turned over
     double scale = 1;          //!< of the points, relative to elements of their own size
+    std::vector<Vec3> meant{}; //!< where its corners were on the target; empty when that is not known any more
     std::vector<int> origin{}; //!< of a part of another plan: its corners' numbers there, -1 for new ones; or empty
 };
 
@@ -35,6 +36,7 @@ struct ElementRating
     Vec3 middle = Vec3::Zero();
     double stretch = 0;  //!< the largest of its sides and diagonals
     double distance = 0; //!< of the middle from the target, la
+    double bend = 0;     //!< square of the difference of the turns of its two corners; 0 when not known
 };
 
 //! \brief A plan, the network made of it, and how good that is.
@@ -44,6 +46,7 @@ struct Trial
     FoundNetwork found;
     std::vector<ElementRating> ratings;
     double rms = 0;    //!< distance, both ways, la
+    double astray = 0; //!< distance of the corners from where they were meant to be, rms, la; 0 when not known
     double excess = 0; //!< stretch beyond what a sheet gives, summed over the elements
     long cost = 0;     //!< iterations times elements
 };
@@ -76,8 +79,17 @@ bool is_permissible(const Plan& plan, const Trials& trials);
 //! defects.
 std::optional<Trial> settle(const Plan& plan, const Trials& trials);
 
-//! \brief Change the plan where elements are overstretched or far from the target, by flips, splits and elements turned
-//! over, as long as the score falls and less than \p work iterations times elements are spent. Returns what is left.
-long polish(Trial& best, const Trials& trials, double price, long work);
+//! \brief What a network is polished for.
+enum class Aim
+{
+    Near,    //!< little distance from the target
+    Straight //!< corners where they were meant to be
+};
+
+//! \brief Change the plan by flips, splits and elements turned over, as long as the score falls and less than \p work
+//! iterations times elements are spent. Returns what is left.
+//! \details It is changed where elements are overstretched, and where they are far from the target or bent against it:
+//! one wrong element at its root turns a whole limb, which is far away at its end.
+long polish(Trial& best, const Trials& trials, Aim aim, double price, long work);
 
 } // namespace rhombloom

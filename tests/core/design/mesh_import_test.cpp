@@ -9,71 +9,14 @@
 #include "core/design/mesh_import/mesh_import.h"
 #include "core/design/mesh_import/mesh_repair.h"
 #include "core/design/mesh_import/mesh_wrap.h"
-#include "core/design/mesh_import/network_moves.h"
 #include "core/design/mesh_import/network_search.h"
 #include "core/design/mesh_import/remesh.h"
-#include "core/design/mesh_import/thicken.h"
-#include "core/design/mesh_import/working_target.h"
-#include "core/model/triangulation.h"
 #include "core/model/validity.h"
+#include "tests/core/design/target_meshes.h"
 
 namespace rhombloom {
 
 namespace {
-
-TriangleMesh sphere(double radius)
-{
-    const Triangulation unit = geodesic(Deltahedron::Icosahedron, 4, 0);
-    TriangleMesh mesh{unit.points, unit.triangles};
-    transform(mesh, radius, Vec3::Zero());
-    return mesh;
-}
-
-//! A ball of radius 100 with a limb of radius 18 up to z = 400: a profile turned about z.
-TriangleMesh ball_with_limb()
-{
-    std::vector<std::pair<double, double>> profile; // radius, z
-    for (int k = 1; k <= 20; ++k) {
-        const double a = pi * (1 - k / 21.0);
-        profile.emplace_back(100 * std::sin(a), 100 * std::cos(a));
-    }
-    std::erase_if(profile, [](const auto& p) { return p.first < 18 && p.second > 0; });
-    for (double z = profile.back().second + 10; z < 395; z += 10) {
-        profile.emplace_back(18, z);
-    }
-    constexpr int around = 24;
-    TriangleMesh mesh;
-    for (const auto& [radius, z] : profile) {
-        for (int k = 0; k < around; ++k) {
-            mesh.points.emplace_back(radius * std::cos(two_pi * k / around), radius * std::sin(two_pi * k / around), z);
-        }
-    }
-    const int rings = static_cast<int>(profile.size());
-    const int bottom = rings * around;
-    mesh.points.emplace_back(0, 0, -100);
-    mesh.points.emplace_back(0, 0, 400);
-    for (int k = 0; k < around; ++k) {
-        const int n = (k + 1) % around;
-        mesh.triangles.push_back({bottom, n, k});
-        mesh.triangles.push_back({bottom + 1, (rings - 1) * around + k, (rings - 1) * around + n});
-        for (int r = 0; r + 1 < rings; ++r) {
-            mesh.triangles.push_back({r * around + k, r * around + n, (r + 1) * around + n});
-            mesh.triangles.push_back({r * around + k, (r + 1) * around + n, (r + 1) * around + k});
-        }
-    }
-    return mesh;
-}
-
-TriangleMesh box(const Vec3& sizes)
-{
-    TriangleMesh mesh;
-    for (int k = 0; k < 8; ++k) {
-        mesh.points.emplace_back(sizes.cwiseProduct(Vec3(k & 1, k >> 1 & 1, k >> 2 & 1)));
-    }
-    mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-    return mesh;
-}
 
 //! From the network of \p triangles; the middles of its triangles lie in their planes.
 Surface flat_join(const TriangleMesh& triangles)
@@ -159,38 +102,6 @@ TEST(Remesh, KeepsALimbThinnerThanAnEdge)
     RemeshOptions options;
     options.edge = 60;
     EXPECT_GT(bounds(remesh(tree.mesh(), tree, options)).max().z(), 370);
-}
-
-TEST(WorkingTarget, LeavesWhatIsThickEnoughAsItIs)
-{
-    const WorkingTarget working = working_target(sphere(100), 40, 0);
-    EXPECT_EQ(working.thickened, 0);
-    EXPECT_EQ(working.scale, 1);
-    EXPECT_EQ(working.thick.points.size(), working.even.points.size());
-}
-
-TEST(WorkingTarget, ALimbBecomesAsThickAsElementsCanFollow)
-{
-    constexpr double edge = 100; // the limb's radius is 18
-    const WorkingTarget working = working_target(ball_with_limb(), edge, 0);
-    EXPECT_GT(working.thickened, 0.05);
-    const MeshTree tree(working.thick);
-    for (const double z : {200.0, 250.0, 300.0, 350.0}) {
-        EXPECT_NEAR(tree.nearest({0, 0, z}).distance, 0.35 * edge, 0.04 * edge) << z;
-    }
-    EXPECT_NEAR(tree.nearest({0, 0, -100}).distance, 0, 0.04 * edge); // the ball stays
-    EXPECT_EQ(working.thick.points.size() - working.thick.triangles.size() / 2, 2U);
-}
-
-TEST(WorkingTarget, APlateBecomesACushionThatSoManyElementsCover)
-{
-    constexpr double edge = 10;
-    constexpr int elements = 600;
-    const WorkingTarget working = working_target(box({100, 80, 2}), edge, elements);
-    EXPECT_GT(working.thickened, 0.9);
-    EXPECT_NEAR(MeshTree(working.thick).nearest(working.scale * Vec3(50, 40, 1)).distance, 0.35 * edge, 0.05 * edge);
-    EXPECT_NEAR(area(working.thick) / area_per_element(edge), elements, 0.02 * elements);
-    EXPECT_NEAR(bounds(working.even).sizes().x(), 100 * working.scale, 0.5);
 }
 
 TEST(Fit, ALimbThatPointsElsewhereDoesNotShrinkTheSurface)
@@ -355,50 +266,6 @@ TEST(ImportMesh, AThinPlateIsMadeThickEnoughAndThatIsTold)
         << made->report.repairs.back();
     EXPECT_LT(made->report.distance.rms(), 0.7 * made->element.la);
     EXPECT_NEAR(bounds(made->target).sizes().z() / bounds(made->target).sizes().x(), 0.02, 0.005); // as it was given
-}
-
-TEST(NetworkMoves, AFlipReplacesAnElementASplitAddsThreeACollapseTakesThreeATurnIsUndone)
-{
-    const TriangleMesh mesh = sphere(100);
-    const MeshTree tree(mesh);
-    const Plan plan{mesh, triangle_middles(mesh, tree), {}};
-    const Corners place = std::minmax(mesh.triangles[7][0], mesh.triangles[7][1]);
-    const auto edges = [](const Plan& p) {
-        std::set<Corners> result;
-        for (const Quad& q : join_network(p.triangles, p.middles).quads) {
-            result.insert(std::minmax(q[0], q[2]));
-        }
-        return result;
-    };
-    const Plan flipped = carry_out({{Move::Kind::Flip, place}}, plan);
-    EXPECT_EQ(edges(flipped).count(place), 0U);
-    EXPECT_EQ(edges(flipped).size(), edges(plan).size());
-    EXPECT_EQ(edges(carry_out({{Move::Kind::Split, place}}, plan)).size(), edges(plan).size() + 3);
-    const Plan fewer = carry_out({{Move::Kind::Collapse, place}}, plan);
-    EXPECT_EQ(edges(fewer).size(), edges(plan).size() - 3);
-    EXPECT_EQ(fewer.triangles.points.size(), plan.triangles.points.size() - 1);
-    EXPECT_EQ(fewer.middles.size(), fewer.triangles.triangles.size());
-    const Plan turned = carry_out({{Move::Kind::Turn, place}}, plan);
-    EXPECT_EQ(turned.flipped.count(place), 1U);
-    EXPECT_TRUE(carry_out({{Move::Kind::Turn, place}}, turned).flipped.empty());
-}
-
-TEST(NetworkMoves, ElementsTurnedOverStayTheSameWhenCornersAreRenumbered)
-{
-    const TriangleMesh mesh = sphere(100);
-    const Triangle& last = mesh.triangles.back();
-    const Corners turned = std::minmax(last[0], last[1]);
-    const Plan plan{mesh, triangle_middles(mesh, MeshTree(mesh)), {turned}};
-    const Plan fewer =
-        carry_out({{Move::Kind::Collapse, std::minmax(mesh.triangles[0][0], mesh.triangles[0][1])}}, plan);
-    ASSERT_EQ(fewer.flipped.size(), 1U);
-    const auto [a, b] = *fewer.flipped.begin();
-    const std::set<std::array<double, 3>> before = {
-        {mesh.points[turned.first].x(), mesh.points[turned.first].y(), 0},
-        {mesh.points[turned.second].x(), mesh.points[turned.second].y(), 0}};
-    const auto& points = fewer.triangles.points;
-    EXPECT_EQ(before,
-              (std::set<std::array<double, 3>>{{points[a].x(), points[a].y(), 0}, {points[b].x(), points[b].y(), 0}}));
 }
 
 TEST(Decimate, KeepsTheTopologyAndPointsOfTheMesh)
