@@ -26,7 +26,7 @@ constexpr double count_tolerance = 0.08;            // of the number of elements
 constexpr double stretch_price = 25;                // la per unit of stretch beyond the limit, summed over the elements
 constexpr double crowding = 1e-2;                   // stretches beyond 1 % are mostly where vertices of degree 7 crowd
 constexpr long most_work = 100'000'000;             // iterations times elements in all: about four minutes
-constexpr long most_straightening = 70'000'000;     // of that unit, besides: half a minute
+constexpr long most_straightening = 140'000'000;    // of that unit, besides: a minute
 constexpr long polishing = 6000;                    // iterations per network
 constexpr std::size_t most_matched_vertices = 2500; // of the triangulation: a minute
 
