@@ -120,6 +120,18 @@ std::string thickness_remark(double share, const Element& element)
            " mm can follow, and becomes as thick as that; with more elements less of it";
 }
 
+//! That a share of the target lies in gaps that are too narrow for elements; empty when none does.
+std::string gap_remark(double share, const Element& element)
+{
+    if (share == 0) {
+        return {};
+    }
+    const std::string percent = share < 0.01 ? "less than 1" : to_fixed(100 * share, 0);
+    return percent + " % of the target lies in gaps or holes narrower than " + to_fixed(least_gap_width(element), 0) +
+           " mm, the narrowest that elements of la " + to_fixed(element.la, 0) +
+           " mm leave open, and these are filled; with more elements fewer of them";
+}
+
 void fill_report(const Surface& surface, const FoundNetwork& found, ImportedMesh& result)
 {
     ImportReport& report = result.report;
@@ -177,8 +189,11 @@ Expected<ImportedMesh> import_mesh(const TriangleMesh& mesh, const ImportOptions
     fill_report(found->surface, *found, result);
     result.operation = import_of(found->surface, options.id);
     result.operation.distance = stored(result.report.distance);
-    if (const std::string thin = thickness_remark(found->thickened, result.element); !thin.empty()) {
-        result.report.repairs.push_back(thin);
+    for (const std::string& remark :
+         {thickness_remark(found->thickened, result.element), gap_remark(found->filled, result.element)}) {
+        if (!remark.empty()) {
+            result.report.repairs.push_back(remark);
+        }
     }
     if (const std::string far = distance_warning(result.operation, result.element); !far.empty()) {
         result.report.warnings.push_back(far);

@@ -24,13 +24,14 @@ struct Grid
     Vec3 point(const Index3& i) const { return origin + cell * (i.cast<double>() + Vec3(0.0137, 0.0071, 0.0113)); }
 };
 
-Grid make_grid(const TriangleMesh& mesh, double cell)
+Grid make_grid(const TriangleMesh& mesh, double cell, double margin)
 {
     const Eigen::AlignedBox3d box = bounds(mesh);
     Grid grid;
     grid.cell = cell;
-    grid.origin = box.min() - Vec3::Constant(2 * cell);
-    grid.counts = ((box.sizes() / cell).array().ceil().cast<int>() + 5).matrix();
+    const int around = 2 + static_cast<int>(std::ceil(margin / cell));
+    grid.origin = box.min() - Vec3::Constant(around * cell);
+    grid.counts = ((box.sizes() / cell).array().ceil().cast<int>() + 2 * around + 1).matrix();
     grid.inside.assign(static_cast<std::size_t>(grid.counts.prod()), -1);
     return grid;
 }
@@ -100,6 +101,90 @@ void fill_regions(const MeshTree& tree, Grid& grid)
                 }
             });
         }
+    }
+}
+
+//! Squared distances along one line, from squared distances across it (Felzenszwalb and Huttenlocher 2012): the lower
+//! envelope of one parabola per corner.
+void spread(std::vector<double>& line)
+{
+    const int n = static_cast<int>(line.size());
+    std::vector<int> lowest;   // corners whose parabolas are on the envelope
+    std::vector<double> begin; // where each takes over
+    const auto crossing = [&](int a, int b) {
+        return ((line[b] + 1.0 * b * b) - (line[a] + 1.0 * a * a)) / (2.0 * (b - a));
+    };
+    for (int k = 0; k < n; ++k) {
+        while (!lowest.empty() && crossing(lowest.back(), k) <= begin.back()) {
+            lowest.pop_back();
+            begin.pop_back();
+        }
+        begin.push_back(lowest.empty() ? -1e30 : crossing(lowest.back(), k));
+        lowest.push_back(k);
+    }
+    std::vector<double> result(line.size());
+    std::size_t at = 0;
+    for (int k = 0; k < n; ++k) {
+        while (at + 1 < begin.size() && begin[at + 1] < k) {
+            ++at;
+        }
+        const double off = k - lowest[at];
+        result[k] = off * off + line[lowest[at]];
+    }
+    line = std::move(result);
+}
+
+//! Squared distance in cells of every corner from the nearest one that is \p wanted.
+std::vector<double> squared_distances(const Grid& grid, signed char wanted)
+{
+    constexpr double far = 1e12;
+    std::vector<double> result;
+    for (const signed char inside : grid.inside) {
+        result.push_back(inside == wanted ? 0 : far);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        Index3 step = Index3::Zero();
+        step[axis] = 1;
+        const int stride = grid.number(step);
+        std::vector<double> line(grid.counts[axis]);
+        for (int n = 0; n < static_cast<int>(result.size()); ++n) {
+            if (grid.index(n)[axis] != 0) {
+                continue;
+            }
+            for (std::size_t k = 0; k < line.size(); ++k) {
+                line[k] = result[n + stride * static_cast<int>(k)];
+            }
+            spread(line);
+            for (std::size_t k = 0; k < line.size(); ++k) {
+                result[n + stride * static_cast<int>(k)] = line[k];
+            }
+        }
+    }
+    return result;
+}
+
+//! Fill what a ball of that radius does not reach from outside.
+void close(Grid& grid, double radius)
+{
+    const double reach = std::pow(radius / grid.cell + 0.5, 2); // surfaces are half a cell from corners
+    Grid wider = grid;
+    const std::vector<double> to_solid = squared_distances(grid, 1);
+    std::vector<int> stack = {0}; // the first corner is outside
+    std::fill(wider.inside.begin(), wider.inside.end(), 1);
+    wider.inside[0] = 0;
+    while (!stack.empty()) {
+        const int n = stack.back();
+        stack.pop_back();
+        for_neighbours(grid, n, [&](int m) {
+            if (wider.inside[m] == 1 && to_solid[m] > reach) {
+                wider.inside[m] = 0;
+                stack.push_back(m);
+            }
+        });
+    }
+    const std::vector<double> to_free = squared_distances(wider, 0);
+    for (std::size_t n = 0; n < to_free.size(); ++n) {
+        grid.inside[n] = grid.inside[n] == 1 || to_free[n] > reach ? 1 : 0;
     }
 }
 
@@ -210,9 +295,12 @@ void draw_near(const MeshTree& tree, double cell, TriangleMesh& mesh)
 
 TriangleMesh wrap(const MeshTree& tree, const WrapOptions& options)
 {
-    Grid grid = make_grid(tree.mesh(), options.cell);
+    Grid grid = make_grid(tree.mesh(), options.cell, options.closing);
     sample_near(tree, grid);
     fill_regions(tree, grid);
+    if (options.closing > 0) {
+        close(grid, options.closing);
+    }
     TriangleMesh mesh = march(grid);
     draw_near(tree, options.cell, mesh);
     return mesh;

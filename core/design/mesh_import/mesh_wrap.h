@@ -6,7 +6,8 @@ namespace rhombloom {
 
 struct WrapOptions
 {
-    double cell = 1; //!< side of a grid cell, in the mesh's unit: detail below two cells is lost
+    double cell = 1;    //!< side of a grid cell, in the mesh's unit: detail below two cells is lost
+    double closing = 0; //!< gaps narrower than twice this are filled, and what they enclose
 };
 
 //! \brief The surface of the solid that \p tree encloses: all points with a winding number above one half.

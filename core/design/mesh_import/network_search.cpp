@@ -313,6 +313,7 @@ Expected<FoundNetwork> search_network(const TriangleMesh& target, const Element&
     transform(network.target, network.target_scale, Vec3::Zero());
     network.target_scale *= working.scale;
     network.thickened = working.thickened;
+    network.filled = working.filled;
     network.elements = working.elements;
     return network;
 }

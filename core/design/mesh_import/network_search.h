@@ -24,6 +24,7 @@ struct FoundNetwork
     double target_scale = 1; //!< about the origin
     TriangleMesh target;     //!< in even triangles, scaled
     double thickened = 0;    //!< share of the target's area that was too thin for elements, and was made thicker
+    double filled = 0;       //!< share of the target's area that lay in gaps too narrow for elements; they were filled
     int elements = 0;        //!< that were looked for
 };
 

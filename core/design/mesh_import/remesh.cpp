@@ -250,7 +250,13 @@ TriangleMesh evened(const MeshTree& mesh, double edge)
     options.edge = edge;
     options.max_degree = 12;
     options.rounds = 3;
-    return remesh(mesh.mesh(), mesh, options);
+    constexpr double far = 4; // longer sides are not cut up within so few rounds
+    EditMesh start = edit_mesh(mesh.mesh());
+    for (std::size_t before = 0; before != start.n_edges();) {
+        before = start.n_edges();
+        split_long(start, mesh, far * edge);
+    }
+    return remesh(triangle_mesh(start), mesh, options);
 }
 
 } // namespace rhombloom

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/design/mesh_import/close_gaps.h"
 #include "core/design/mesh_import/mesh_decimate.h"
 #include "core/design/mesh_import/network_search.h"
 #include "core/design/mesh_import/remesh.h"
@@ -15,6 +16,8 @@ constexpr double detail = 6; // triangles' edges of the working target per edge 
 //! Of the thinnest limb, in edges of the network: tubes of three triangles around do not settle, or bend at their
 //! roots.
 constexpr double least_radius = 0.35;
+//! Of the narrowest gap, in edges of the network: walls nearer to each other would cross.
+constexpr double least_gap = 0.45;
 
 //! The target in triangles that are small for the network and even: quick to ask, whatever the file had.
 TriangleMesh even_target(const TriangleMesh& target, double edge)
@@ -29,6 +32,11 @@ double least_thickness(const Element& element)
     return 2 * least_radius * triangle_edge(element);
 }
 
+double least_gap_width(const Element& element)
+{
+    return least_gap * triangle_edge(element);
+}
+
 WorkingTarget working_target(const TriangleMesh& target, double edge, int elements)
 {
     constexpr int most_rounds = 4;
@@ -38,12 +46,14 @@ WorkingTarget working_target(const TriangleMesh& target, double edge, int elemen
     for (int round = 0; round < most_rounds; ++round) {
         result.even = even_target(scaled, edge);
         ThickenedMesh thickened = thicken(result.even, {least_radius * edge, edge / detail});
-        result.thick = std::move(thickened.mesh);
+        GapsClosed closed = close_gaps(thickened.mesh, {least_gap * edge, edge / detail});
+        result.thick = std::move(closed.mesh);
         result.thickened = thickened.share;
+        result.filled = closed.share;
         const double count = area(result.thick) / area_per_element(edge);
         result.elements = elements > 0 ? elements : static_cast<int>(std::lround(count));
         const double factor = std::sqrt(result.elements / count);
-        if (elements == 0 || result.thickened == 0 || std::abs(factor - 1) < near) {
+        if (elements == 0 || result.thickened + result.filled == 0 || std::abs(factor - 1) < near) {
             break;
         }
         transform(scaled, factor, Vec3::Zero());

@@ -264,7 +264,7 @@ TEST(ImportMesh, AThinPlateIsMadeThickEnoughAndThatIsTold)
     ASSERT_FALSE(made->report.repairs.empty());
     EXPECT_NE(made->report.repairs.back().find("of the target is thinner than"), std::string::npos)
         << made->report.repairs.back();
-    EXPECT_LT(made->report.distance.rms(), 0.7 * made->element.la);
+    EXPECT_LT(made->report.distance.rms(), made->element.la);
     EXPECT_NEAR(bounds(made->target).sizes().z() / bounds(made->target).sizes().x(), 0.02, 0.005); // as it was given
 }
 
