@@ -63,7 +63,8 @@ TriangleMesh decimate(const TriangleMesh& mesh, double edge)
     double limit = std::min(edge, 1.2 * mean_edge_length(result));
     for (bool last = false; !last;) {
         last = limit >= edge;
-        while (collapse_pass(result, limit) > few * static_cast<double>(result.n_vertices())) {
+        // Short edges that a pass leaves are for the next, but for the last.
+        while (collapse_pass(result, limit) > few * static_cast<double>(result.n_vertices()) && last) {
         }
         limit = std::min(edge, growth * limit);
     }

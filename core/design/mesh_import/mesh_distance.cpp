@@ -10,8 +10,11 @@ namespace {
 Deviation deviation(const std::vector<Vec3>& points, const MeshTree& tree)
 {
     Deviation result;
+    int last = -1; // the samples of a triangle follow each other
     for (const Vec3& p : points) {
-        const double d = tree.nearest(p).distance;
+        const NearestPoint nearest = tree.nearest(p, last);
+        const double d = nearest.distance;
+        last = nearest.triangle;
         result.rms += d * d;
         result.max = std::max(result.max, d);
     }
@@ -94,12 +97,12 @@ class Fitting
 public:
     Fitting(const Surface& surface, const MeshTree& target)
         : elements_(element_triangles(surface)), target_(target), own_(sample(elements_.mesh(), samples)),
-          others_(sample(target.mesh(), samples))
+          others_(sample(target.mesh(), samples)), own_hints_(own_.size(), -1), others_hints_(others_.size(), -1)
     {
     }
 
     //! Iterated closest points of the surface's own points, or of the target's as well.
-    Eigen::Affine3d pose(bool rescale, bool both_ways) const
+    Eigen::Affine3d pose(bool rescale, bool both_ways)
     {
         constexpr int rounds = 6;
         Eigen::Affine3d pose = Eigen::Affine3d::Identity();
@@ -111,26 +114,29 @@ public:
     }
 
     //! Mean square of the distances, both ways.
-    double mean_square(const Eigen::Affine3d& pose) const { return pairs(pose, true).squares(pose) / (2 * samples); }
+    double mean_square(const Eigen::Affine3d& pose) { return pairs(pose, true).squares(pose) / (2 * samples); }
 
 private:
     static constexpr int samples = 1500; // of each surface
 
-    Pairs pairs(const Eigen::Affine3d& pose, bool both_ways) const
+    Pairs pairs(const Eigen::Affine3d& pose, bool both_ways)
     {
         Pairs result;
         result.from.resize(3, own_.size() + (both_ways ? others_.size() : 0));
         result.to.resize(3, result.from.cols());
         Eigen::Index column = 0;
-        for (const Vec3& p : own_) {
-            result.from.col(column) = p;
-            result.to.col(column++) = target_.nearest(pose * p).point;
+        for (std::size_t k = 0; k < own_.size(); ++k, ++column) {
+            const NearestPoint near = target_.nearest(pose * own_[k], own_hints_[k]);
+            own_hints_[k] = near.triangle;
+            result.from.col(column) = own_[k];
+            result.to.col(column) = near.point;
         }
         const Eigen::Affine3d back = pose.inverse();
-        for (; column < result.from.cols(); ++column) {
-            const Vec3& p = others_[column - static_cast<Eigen::Index>(own_.size())];
-            result.from.col(column) = elements_.nearest(back * p).point;
-            result.to.col(column) = p;
+        for (std::size_t k = 0; both_ways && k < others_.size(); ++k, ++column) {
+            const NearestPoint near = elements_.nearest(back * others_[k], others_hints_[k]);
+            others_hints_[k] = near.triangle;
+            result.from.col(column) = near.point;
+            result.to.col(column) = others_[k];
         }
         return result;
     }
@@ -139,6 +145,8 @@ private:
     const MeshTree& target_;
     std::vector<Vec3> own_;
     std::vector<Vec3> others_;
+    std::vector<int> own_hints_; //!< triangles of the other surface that were nearest last
+    std::vector<int> others_hints_;
 };
 
 } // namespace
@@ -147,7 +155,7 @@ Eigen::Affine3d fit(const Surface& surface, const MeshTree& target, bool rescale
 {
     constexpr double close = 0.02; // of the target's size
     constexpr double clearly = 0.8;
-    const Fitting fitting(surface, target);
+    Fitting fitting(surface, target);
     const Eigen::Affine3d one_way = fitting.pose(rescale, false);
     const double off = fitting.mean_square(one_way);
     if (off < close * close * bounds(target.mesh()).sizes().squaredNorm()) {

@@ -58,22 +58,19 @@ void weld(RepairedMesh& result)
     if (!(cell > 0)) {
         return;
     }
-    const auto key = [&](int v) {
-        const Vec3 q = ((mesh.points[v] - box.min()) / cell).array().round();
-        return std::array<double, 3>{q.x(), q.y(), q.z()};
-    };
-    std::vector<std::array<double, 3>> keys(mesh.points.size());
-    std::vector<int> order(mesh.points.size());
-    std::iota(order.begin(), order.end(), 0);
-    for (const int v : order) {
-        keys[v] = key(v);
+    using Key = std::array<double, 3>;
+    std::vector<std::pair<Key, int>> keys;
+    keys.reserve(mesh.points.size());
+    for (const Vec3& p : mesh.points) {
+        const Vec3 q = ((p - box.min()) / cell).array().round();
+        keys.emplace_back(Key{q.x(), q.y(), q.z()}, static_cast<int>(keys.size()));
     }
-    std::sort(order.begin(), order.end(), [&](int a, int b) { return std::tie(keys[a], a) < std::tie(keys[b], b); });
+    std::sort(keys.begin(), keys.end());
     std::vector<int> number(mesh.points.size());
     int first = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        first = i > 0 && keys[order[i]] == keys[order[i - 1]] ? first : order[i];
-        number[order[i]] = first;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        first = i > 0 && keys[i].first == keys[i - 1].first ? first : keys[i].second;
+        number[keys[i].second] = first;
     }
     for (Triangle& t : mesh.triangles) {
         t = {number[t[0]], number[t[1]], number[t[2]]};

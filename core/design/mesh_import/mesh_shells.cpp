@@ -18,20 +18,30 @@ struct EdgeUse
     bool same_edge(const EdgeUse& other) const { return low == other.low && high == other.high; }
 };
 
+//! By their lower ends, then their higher ends, then their triangles.
 std::vector<EdgeUse> sorted_edges(const TriangleMesh& mesh)
 {
-    std::vector<EdgeUse> uses;
-    uses.reserve(3 * mesh.triangles.size());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        for (int k = 0; k < 3; ++k) {
-            const int a = mesh.triangles[i][k];
-            const int b = mesh.triangles[i][(k + 1) % 3];
-            uses.push_back({std::min(a, b), std::max(a, b), static_cast<int>(i), a < b});
+    std::vector<std::size_t> end(mesh.points.size(), 0); // of the uses with each lower end, after they are counted
+    const auto for_uses = [&](auto&& take) {
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            for (int k = 0; k < 3; ++k) {
+                const int a = mesh.triangles[i][k];
+                const int b = mesh.triangles[i][(k + 1) % 3];
+                take(EdgeUse{std::min(a, b), std::max(a, b), static_cast<int>(i), a < b});
+            }
         }
+    };
+    for_uses([&](const EdgeUse& use) { ++end[use.low]; });
+    std::exclusive_scan(end.begin(), end.end(), end.begin(), std::size_t(0));
+    std::vector<EdgeUse> uses(3 * mesh.triangles.size());
+    for_uses([&](const EdgeUse& use) { uses[end[use.low]++] = use; });
+    auto first = uses.begin();
+    for (const std::size_t last : end) {
+        std::sort(first, uses.begin() + static_cast<std::ptrdiff_t>(last), [](const EdgeUse& a, const EdgeUse& b) {
+            return std::tie(a.high, a.triangle) < std::tie(b.high, b.triangle);
+        });
+        first = uses.begin() + static_cast<std::ptrdiff_t>(last);
     }
-    std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
-        return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-    });
     return uses;
 }
 

@@ -10,6 +10,12 @@ namespace {
 
 constexpr int leaf_size = 4;
 
+//! As Eigen's squaredExteriorDistance(), without branches that cannot be predicted.
+double squared_distance(const Eigen::AlignedBox3d& box, const Vec3& p)
+{
+    return (box.min() - p).cwiseMax(p - box.max()).cwiseMax(0.0).squaredNorm();
+}
+
 //! Solid angle of a triangle as seen from p (Van Oosterom and Strackee 1983).
 double solid_angle(const Vec3& p, const Vec3& a0, const Vec3& b0, const Vec3& c0)
 {
@@ -73,52 +79,97 @@ MeshTree::MeshTree(TriangleMesh mesh) : mesh_(std::move(mesh)), order_(mesh_.tri
         middles_.emplace_back((mesh_.points[t[0]] + mesh_.points[t[1]] + mesh_.points[t[2]]) / 3);
     }
     nodes_.reserve(order_.size());
+    dipoles_.reserve(order_.size());
     nodes_.emplace_back();
+    dipoles_.emplace_back();
     build(0, 0, static_cast<int>(order_.size()));
+    corners_.reserve(order_.size());
+    for (const int k : order_) {
+        const Triangle& t = mesh_.triangles[k];
+        corners_.push_back({mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]});
+    }
 }
 
-void MeshTree::sum_up(Node& node, int first, int count) const
+void MeshTree::make_leaf(int index, int first, int count)
 {
-    double total = 0;
+    Node& node = nodes_[index];
+    Dipole& dipole = dipoles_[index];
+    node.first = first;
+    node.count = count;
     for (int i = first; i < first + count; ++i) {
         const Triangle& t = mesh_.triangles[order_[i]];
         const Vec3 normal = area_normal(mesh_, t) / 2;
-        node.dipole += normal;
-        node.centre += normal.norm() * middles_[order_[i]];
-        total += normal.norm();
+        const double area = normal.norm();
+        dipole.moment += normal;
+        dipole.centre += area * middles_[order_[i]];
+        dipole.area += area;
         for (const int v : t) {
             node.box.extend(mesh_.points[v]);
         }
     }
-    node.centre = total > 0 ? Vec3(node.centre / total) : Vec3(node.box.center());
-    node.radius = (node.box.max() - node.centre).cwiseMax(node.centre - node.box.min()).norm();
+    dipole.centre = dipole.area > 0 ? Vec3(dipole.centre / dipole.area) : Vec3(node.box.center());
+}
+
+//! An inner node, after its children.
+void MeshTree::sum_up(int index)
+{
+    Node& node = nodes_[index];
+    Dipole& dipole = dipoles_[index];
+    for (const int child : {node.left, node.left + 1}) {
+        const Dipole& part = dipoles_[child];
+        node.box.extend(nodes_[child].box);
+        dipole.moment += part.moment;
+        dipole.centre += part.area * part.centre;
+        dipole.area += part.area;
+    }
+    dipole.centre = dipole.area > 0 ? Vec3(dipole.centre / dipole.area) : Vec3(node.box.center());
 }
 
 void MeshTree::build(int index, int first, int count)
 {
-    sum_up(nodes_[index], first, count);
     if (count <= leaf_size) {
-        nodes_[index].first = first;
-        nodes_[index].count = count;
-        return;
+        make_leaf(index, first, count);
+    } else {
+        Eigen::AlignedBox3d box;
+        for (int i = first; i < first + count; ++i) {
+            box.extend(middles_[order_[i]]);
+        }
+        int axis = 0;
+        box.sizes().maxCoeff(&axis);
+        const auto before = [&](int a, int b) {
+            return std::pair(middles_[a][axis], a) < std::pair(middles_[b][axis], b);
+        };
+        const int half = count / 2;
+        std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count, before);
+        const int left = static_cast<int>(nodes_.size());
+        nodes_[index].left = left;
+        nodes_.resize(nodes_.size() + 2);
+        dipoles_.resize(nodes_.size());
+        build(left, first, half);
+        build(left + 1, first + half, count - half);
+        sum_up(index);
     }
-    int axis = 0;
-    nodes_[index].box.sizes().maxCoeff(&axis);
-    const auto before = [&](int a, int b) { return std::pair(middles_[a][axis], a) < std::pair(middles_[b][axis], b); };
-    const int half = count / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count, before);
-    const int left = static_cast<int>(nodes_.size());
-    nodes_[index].left = left;
-    nodes_.emplace_back();
-    nodes_.emplace_back();
-    build(left, first, half);
-    build(left + 1, first + half, count - half);
+    const Eigen::AlignedBox3d& box = nodes_[index].box;
+    Dipole& dipole = dipoles_[index];
+    dipole.radius = (box.max() - dipole.centre).cwiseMax(dipole.centre - box.min()).norm();
 }
 
-NearestPoint MeshTree::nearest(const Vec3& p) const
+NearestPoint MeshTree::nearest(const Vec3& p, int hint) const
 {
     NearestPoint best;
     double best_squared = std::numeric_limits<double>::infinity();
+    const auto consider = [&](const Vec3& a, const Vec3& b, const Vec3& c, int triangle) {
+        const Vec3 q = nearest_on_triangle(p, a, b, c);
+        const double d = (q - p).squaredNorm();
+        if (d < best_squared) {
+            best_squared = d;
+            best = {q, triangle, 0};
+        }
+    };
+    if (hint >= 0) {
+        const Triangle& t = mesh_.triangles[hint];
+        consider(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]], hint);
+    }
     std::array<std::pair<double, int>, 128> stack;
     int size = 0;
     stack[size++] = {0, 0};
@@ -129,20 +180,19 @@ NearestPoint MeshTree::nearest(const Vec3& p) const
         }
         const Node& node = nodes_[index];
         for (int i = node.first; i < node.first + node.count; ++i) {
-            const Triangle& t = mesh_.triangles[order_[i]];
-            const Vec3 q = nearest_on_triangle(p, mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]);
-            const double d = (q - p).squaredNorm();
-            if (d < best_squared) {
-                best_squared = d;
-                best = {q, order_[i], 0};
-            }
+            const auto& [a, b, c] = corners_[i];
+            consider(a, b, c, order_[i]);
         }
         if (node.count == 0) {
-            const double left = nodes_[node.left].box.squaredExteriorDistance(p);
-            const double right = nodes_[node.left + 1].box.squaredExteriorDistance(p);
+            const double left = squared_distance(nodes_[node.left].box, p);
+            const double right = squared_distance(nodes_[node.left + 1].box, p);
             const int nearer = left <= right ? 0 : 1;
-            stack[size++] = {std::max(left, right), node.left + 1 - nearer};
-            stack[size++] = {std::min(left, right), node.left + nearer};
+            for (const auto& [off, child] : {std::pair(std::max(left, right), node.left + 1 - nearer),
+                                             std::pair(std::min(left, right), node.left + nearer)}) {
+                if (off < best_squared) {
+                    stack[size++] = {off, child};
+                }
+            }
         }
     }
     best.distance = std::sqrt(best_squared);
@@ -157,16 +207,18 @@ double MeshTree::winding_number(const Vec3& p) const
     int size = 0;
     stack[size++] = 0;
     while (size > 0) {
-        const Node& node = nodes_[stack[--size]];
-        const Vec3 r = node.centre - p;
+        const int index = stack[--size];
+        const Node& node = nodes_[index];
+        const Dipole& dipole = dipoles_[index];
+        const Vec3 r = dipole.centre - p;
         const double distance = r.norm();
-        if (distance > far * node.radius) {
-            sum += node.dipole.dot(r) / (distance * distance * distance);
+        if (distance > far * dipole.radius) {
+            sum += dipole.moment.dot(r) / (distance * distance * distance);
             continue;
         }
         for (int i = node.first; i < node.first + node.count; ++i) {
-            const Triangle& t = mesh_.triangles[order_[i]];
-            sum += solid_angle(p, mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]);
+            const auto& [a, b, c] = corners_[i];
+            sum += solid_angle(p, a, b, c);
         }
         if (node.count == 0) {
             stack[size++] = node.left;

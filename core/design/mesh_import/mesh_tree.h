@@ -21,7 +21,8 @@ public:
 
     const TriangleMesh& mesh() const { return mesh_; }
 
-    NearestPoint nearest(const Vec3& p) const;
+    //! \param hint A triangle that is likely to be near, if one is known: the answer is the same, and sooner there.
+    NearestPoint nearest(const Vec3& p, int hint = -1) const;
 
     //! \brief Generalised winding number (Jacobson et al. 2013): 1 inside, 0 outside a closed mesh, in between where it
     //! has holes. Far groups of triangles count as one dipole (Barill et al. 2018), good to about 0.01.
@@ -37,19 +38,28 @@ private:
         int first = 0; //!< of order_
         int count = 0; //!< 0: an inner node
         int left = -1; //!< the right child follows it
-        Vec3 dipole = Vec3::Zero();
+    };
+
+    //! What a node's triangles add to the winding number from afar.
+    struct Dipole
+    {
+        Vec3 moment = Vec3::Zero();
         Vec3 centre = Vec3::Zero();
+        double area = 0;
         double radius = 0;
     };
 
     void build(int node, int first, int count);
-    void sum_up(Node& node, int first, int count) const;
+    void make_leaf(int node, int first, int count);
+    void sum_up(int node);
 
     TriangleMesh mesh_;
     std::vector<Vec3> normals_;
     std::vector<Vec3> middles_;
     std::vector<int> order_;
+    std::vector<std::array<Vec3, 3>> corners_; //!< of the triangles in this order
     std::vector<Node> nodes_;
+    std::vector<Dipole> dipoles_; //!< of the nodes
 };
 
 //! \brief The point of the triangle a, b, c nearest to \p p.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/design/mesh_import/remesh.h"
+#include "core/form/parallel.h"
 
 namespace rhombloom {
 
@@ -66,13 +67,13 @@ std::vector<double> missing(const MeshTree& tree, const std::vector<Vec3>& norma
     constexpr double share_of_gap = 0.4;
     const std::vector<Vec3>& points = tree.mesh().points;
     std::vector<double> result(points.size(), 0);
-    for (std::size_t v = 0; v < points.size(); ++v) {
+    parallel_tasks(default_threads(), static_cast<int>(points.size()), [&](int v) {
         const double half = room(tree, points[v], normals[v], -normals[v], 2 * radius) / 2;
         if (half < almost * radius) {
             const double gap = room(tree, points[v], normals[v], normals[v], 2 * radius);
             result[v] = std::min(radius - half, share_of_gap * gap);
         }
-    }
+    });
     return result;
 }
 

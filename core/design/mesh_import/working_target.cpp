@@ -19,12 +19,6 @@ constexpr double least_radius = 0.35;
 //! Of the narrowest gap, in edges of the network: walls nearer to each other would cross.
 constexpr double least_gap = 0.45;
 
-//! The target in triangles that are small for the network and even: quick to ask, whatever the file had.
-TriangleMesh even_target(const TriangleMesh& target, double edge)
-{
-    return evened(MeshTree(decimate(target, edge / (2 * detail))), edge / detail);
-}
-
 } // namespace
 
 double least_thickness(const Element& element)
@@ -42,9 +36,10 @@ WorkingTarget working_target(const TriangleMesh& target, double edge, int elemen
     constexpr int most_rounds = 4;
     constexpr double near = 0.01;
     WorkingTarget result;
-    TriangleMesh scaled = target;
+    TriangleMesh scaled = decimate(target, edge / (2 * detail));
     for (int round = 0; round < most_rounds; ++round) {
-        result.even = even_target(scaled, edge);
+        // In triangles that are small for the network and even: quick to ask, whatever the file had.
+        result.even = evened(MeshTree(scaled), edge / detail);
         ThickenedMesh thickened = thicken(result.even, {least_radius * edge, edge / detail});
         GapsClosed closed = close_gaps(thickened.mesh, {least_gap * edge, edge / detail});
         result.thick = std::move(closed.mesh);

@@ -57,6 +57,9 @@ TEST(MeshTree, NearestPointIsThatOfTheNearestTriangle)
             best = std::min(best, (nearest_on_triangle(p, q[t[0]], q[t[1]], q[t[2]]) - p).norm());
         }
         EXPECT_DOUBLE_EQ(tree.nearest(p).distance, best);
+        for (const int hint : {0, tree.nearest(p).triangle}) {
+            EXPECT_DOUBLE_EQ(tree.nearest(p, hint).distance, best);
+        }
     }
 }
 
