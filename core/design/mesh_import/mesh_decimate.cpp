@@ -63,8 +63,7 @@ TriangleMesh decimate(const TriangleMesh& mesh, double edge)
     double limit = std::min(edge, 1.2 * mean_edge_length(result));
     for (bool last = false; !last;) {
         last = limit >= edge;
-        // Short edges that a pass leaves are for the next, but for the last.
-        while (collapse_pass(result, limit) > few * static_cast<double>(result.n_vertices()) && last) {
+        while (collapse_pass(result, limit) > few * static_cast<double>(result.n_vertices())) {
         }
         limit = std::min(edge, growth * limit);
     }

@@ -103,9 +103,6 @@ void MeshTree::make_leaf(int index, int first, int count)
         dipole.moment += normal;
         dipole.centre += area * middles_[order_[i]];
         dipole.area += area;
-        for (const int v : t) {
-            node.box.extend(mesh_.points[v]);
-        }
     }
     dipole.centre = dipole.area > 0 ? Vec3(dipole.centre / dipole.area) : Vec3(node.box.center());
 }
@@ -113,11 +110,10 @@ void MeshTree::make_leaf(int index, int first, int count)
 //! An inner node, after its children.
 void MeshTree::sum_up(int index)
 {
-    Node& node = nodes_[index];
+    const Node& node = nodes_[index];
     Dipole& dipole = dipoles_[index];
     for (const int child : {node.left, node.left + 1}) {
         const Dipole& part = dipoles_[child];
-        node.box.extend(nodes_[child].box);
         dipole.moment += part.moment;
         dipole.centre += part.area * part.centre;
         dipole.area += part.area;
@@ -127,13 +123,16 @@ void MeshTree::sum_up(int index)
 
 void MeshTree::build(int index, int first, int count)
 {
+    Eigen::AlignedBox3d box;
+    for (int i = first; i < first + count; ++i) {
+        for (const int v : mesh_.triangles[order_[i]]) {
+            box.extend(mesh_.points[v]);
+        }
+    }
+    nodes_[index].box = box;
     if (count <= leaf_size) {
         make_leaf(index, first, count);
     } else {
-        Eigen::AlignedBox3d box;
-        for (int i = first; i < first + count; ++i) {
-            box.extend(middles_[order_[i]]);
-        }
         int axis = 0;
         box.sizes().maxCoeff(&axis);
         const auto before = [&](int a, int b) {
@@ -149,7 +148,6 @@ void MeshTree::build(int index, int first, int count)
         build(left + 1, first + half, count - half);
         sum_up(index);
     }
-    const Eigen::AlignedBox3d& box = nodes_[index].box;
     Dipole& dipole = dipoles_[index];
     dipole.radius = (box.max() - dipole.centre).cwiseMax(dipole.centre - box.min()).norm();
 }

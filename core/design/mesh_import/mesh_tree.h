@@ -57,7 +57,7 @@ private:
     std::vector<Vec3> normals_;
     std::vector<Vec3> middles_;
     std::vector<int> order_;
-    std::vector<std::array<Vec3, 3>> corners_; //!< of the triangles in this order
+    std::vector<std::array<Vec3, 3>> corners_; //!< of the triangles, in the order of order_
     std::vector<Node> nodes_;
     std::vector<Dipole> dipoles_; //!< of the nodes
 };
