@@ -90,6 +90,7 @@ MeshTree::MeshTree(TriangleMesh mesh) : mesh_(std::move(mesh)), order_(mesh_.tri
     }
 }
 
+//! A leaf; the centre of its dipole is still a sum, which build() divides by the area.
 void MeshTree::make_leaf(int index, int first, int count)
 {
     Node& node = nodes_[index];
@@ -104,10 +105,9 @@ void MeshTree::make_leaf(int index, int first, int count)
         dipole.centre += area * middles_[order_[i]];
         dipole.area += area;
     }
-    dipole.centre = dipole.area > 0 ? Vec3(dipole.centre / dipole.area) : Vec3(node.box.center());
 }
 
-//! An inner node, after its children.
+//! The dipole of an inner node, after its children; its centre too is still a sum.
 void MeshTree::sum_up(int index)
 {
     const Node& node = nodes_[index];
@@ -118,7 +118,6 @@ void MeshTree::sum_up(int index)
         dipole.centre += part.area * part.centre;
         dipole.area += part.area;
     }
-    dipole.centre = dipole.area > 0 ? Vec3(dipole.centre / dipole.area) : Vec3(node.box.center());
 }
 
 void MeshTree::build(int index, int first, int count)
@@ -149,6 +148,7 @@ void MeshTree::build(int index, int first, int count)
         sum_up(index);
     }
     Dipole& dipole = dipoles_[index];
+    dipole.centre = dipole.area > 0 ? Vec3(dipole.centre / dipole.area) : Vec3(box.center());
     dipole.radius = (box.max() - dipole.centre).cwiseMax(dipole.centre - box.min()).norm();
 }
 
