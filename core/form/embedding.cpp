@@ -109,6 +109,7 @@ MinimiseOptions minimise_options(const EmbedOptions& options, double la, std::si
     MinimiseOptions out;
     out.tolerance = options.tolerance;
     out.max_iterations = options.max_iterations;
+    out.max_newton_iterations = options.max_newton_iterations;
     out.threads = options.threads > 0 ? options.threads : is_small ? 1 : default_threads();
     const auto begin = Clock::now();
     out.progress = [&options, begin, la, iteration = 0, go_on = true](int, const Iterate& iterate) mutable {
@@ -132,7 +133,8 @@ EmbedReport embed(Surface& surface, const Element& element, const EmbedOptions& 
     EmbeddingTerms terms = embedding_terms(surface, element, options);
     const Eigen::Matrix3Xd start = positions(surface);
     VectorXd x = unknowns(start, element.la);
-    const Settled settled = settle(terms, x, minimise_options(options, element.la, surface.n_faces()), options.start);
+    const Settled settled =
+        settle(terms, x, minimise_options(options, element.la, surface.n_faces()), options.start, options.keep_guards);
     Eigen::Matrix3Xd points = element.la * x.reshaped(3, surface.n_vertices());
     align_rigidly(points, start);
     for (const Vertex v : surface.vertices()) {

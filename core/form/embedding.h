@@ -26,9 +26,12 @@ struct EmbedOptions
     double convex_weight = 0;    //!< cost of convex hinges relative to concave ones; 0 is the paper's energy
     double tolerance = 1e-9;     //!< largest absolute gradient component accepted as an equilibrium
     int max_iterations = 10000;  //!< most of them cheap
-    double time_budget_s = 0;    //!< 0: none. A small budget is the coarse mode for dragging
+    //! Of these, by Newton's method at the end of one descent; each costs as much as dozens of others.
+    int max_newton_iterations = 10000;
+    double time_budget_s = 0; //!< 0: none. A small budget is the coarse mode for dragging
     Start start = Start::Unknown;
-    int threads = 0; //!< 0: the machine's, one for small surfaces. The result does not depend on it
+    bool keep_guards = false; //!< look for no equilibrium without the guards where they bear load: quicker
+    int threads = 0;          //!< 0: the machine's, one for small surfaces. The result does not depend on it
     //! Called once per iteration; return false to stop. Empty: never called.
     std::function<bool(const EmbedProgress&)> progress;
 };

@@ -1,5 +1,6 @@
 #include "core/form/minimise.h"
 
+#include <algorithm>
 #include <future>
 
 #include "core/form/newton_system.h"
@@ -96,7 +97,10 @@ MinimiseResult minimise(const EmbeddingTerms& terms, Iterate& iterate, const Min
             return interior_descent(terms, newton, iterate, rest);
         });
     }
-    go_on([&](NewtonSystem& newton, const MinimiseOptions& rest) { return newton_with(newton, terms, iterate, rest); });
+    go_on([&](NewtonSystem& newton, MinimiseOptions rest) {
+        rest.max_iterations = std::min(rest.max_iterations, options.max_newton_iterations);
+        return newton_with(newton, terms, iterate, rest);
+    });
     return result;
 }
 

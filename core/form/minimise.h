@@ -18,6 +18,7 @@ struct MinimiseOptions
 {
     double tolerance = 1e-9; //!< largest absolute gradient component
     int max_iterations = 500;
+    int max_newton_iterations = 10000; //!< of minimise()
     int threads = 1;
     //! Called once per iteration with its number and the iterate; false stops. Empty: never called.
     std::function<bool(int, const Iterate&)> progress;

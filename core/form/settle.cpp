@@ -118,10 +118,15 @@ bool stands_without_guards(EmbeddingTerms& terms, Attempt& state, const Minimise
     return true;
 }
 
+bool bears_load(const EmbeddingTerms& terms, const Attempt& state)
+{
+    return embedding_energy(terms, state.iterate.x).guard > 0;
+}
+
 // Does the shape need a guard to be in equilibrium? If not, there is none when this returns.
 bool needs_guards(EmbeddingTerms& terms, Attempt& state, const MinimiseOptions& options)
 {
-    return embedding_energy(terms, state.iterate.x).guard > 0 &&
+    return bears_load(terms, state) &&
            (state.result.reason != StopReason::Converged || !stands_without_guards(terms, state, options));
 }
 
@@ -240,7 +245,7 @@ void remove_guards(EmbeddingTerms& terms)
     terms.hinge_law.ridge_height = 0;
 }
 
-Settled settle(EmbeddingTerms& terms, VectorXd& x, const MinimiseOptions& options, Start start)
+Settled settle(EmbeddingTerms& terms, VectorXd& x, const MinimiseOptions& options, Start start, bool keep_guards)
 {
     if (auto settled = settle_nearby(terms, x, options, start)) {
         return *settled;
@@ -252,7 +257,7 @@ Settled settle(EmbeddingTerms& terms, VectorXd& x, const MinimiseOptions& option
     settled.restarts = start == Start::Unknown ? try_repairs(terms, first, disordered, best, options) : 0;
     MinimiseOptions rest = options;
     rest.max_iterations = start == Start::Edited ? few_iterations : options.max_iterations;
-    settled.guarded = needs_guards(terms, best, rest);
+    settled.guarded = keep_guards ? bears_load(terms, best) : needs_guards(terms, best, rest);
     if (disordered) {
         lower_equilibrium(terms, best, options);
         settled.guarded = settled.guarded && needs_guards(terms, best, rest);
