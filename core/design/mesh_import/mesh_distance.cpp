@@ -89,7 +89,11 @@ struct Pairs
     Eigen::Matrix3Xd from; //!< on the surface that is moved
     Eigen::Matrix3Xd to;
 
-    double squares(const Eigen::Affine3d& pose) const { return (pose * from - to).squaredNorm(); }
+    Deviation deviation(const Eigen::Affine3d& pose) const
+    {
+        const Eigen::VectorXd squares = (pose * from - to).colwise().squaredNorm();
+        return {std::sqrt(squares.mean()), std::sqrt(squares.maxCoeff())};
+    }
 };
 
 class Fitting
@@ -101,42 +105,69 @@ public:
     {
     }
 
-    //! Iterated closest points of the surface's own points, or of the target's as well.
+    //! Iterated closest points of some of the surface's own points, or of the target's as well.
     Eigen::Affine3d pose(bool rescale, bool both_ways)
     {
         constexpr int rounds = 6;
+        constexpr double little = 1e-4; // of the size
+        constexpr std::size_t every = 3;
         Eigen::Affine3d pose = Eigen::Affine3d::Identity();
         for (int i = 0; i < rounds; ++i) {
-            const Pairs pairs = this->pairs(pose, both_ways);
+            Pairs pairs = own_pairs(pose, every);
+            if (both_ways) {
+                const Pairs others = others_pairs(pose, every);
+                pairs.from.conservativeResize(3, pairs.from.cols() + others.from.cols());
+                pairs.to.conservativeResize(3, pairs.from.cols());
+                pairs.from.rightCols(others.from.cols()) = others.from;
+                pairs.to.rightCols(others.to.cols()) = others.to;
+            }
+            const Eigen::Affine3d before = pose;
             pose.matrix() = Eigen::umeyama(pairs.from, pairs.to, rescale);
+            const Eigen::Matrix3Xd moved = pose * pairs.from - before * pairs.from;
+            if (moved.colwise().squaredNorm().mean() < little * little * squared_size_of_target()) {
+                break;
+            }
         }
         return pose;
     }
 
-    //! Mean square of the distances, both ways.
-    double mean_square(const Eigen::Affine3d& pose) { return pairs(pose, true).squares(pose) / (2 * samples); }
+    Distance distance(const Eigen::Affine3d& pose)
+    {
+        return {own_pairs(pose, 1).deviation(pose), others_pairs(pose, 1).deviation(pose)};
+    }
+
+    double squared_size_of_target() const { return bounds(target_.mesh()).sizes().squaredNorm(); }
 
 private:
     static constexpr int samples = 1500; // of each surface
 
-    Pairs pairs(const Eigen::Affine3d& pose, bool both_ways)
+    static Pairs pairs(std::size_t points, std::size_t every)
     {
-        Pairs result;
-        result.from.resize(3, own_.size() + (both_ways ? others_.size() : 0));
-        result.to.resize(3, result.from.cols());
-        Eigen::Index column = 0;
-        for (std::size_t k = 0; k < own_.size(); ++k, ++column) {
+        const auto count = static_cast<Eigen::Index>((points + every - 1) / every);
+        return {Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count)};
+    }
+
+    Pairs own_pairs(const Eigen::Affine3d& pose, std::size_t every)
+    {
+        Pairs result = pairs(own_.size(), every);
+        for (std::size_t k = 0; k < own_.size(); k += every) {
             const NearestPoint near = target_.nearest(pose * own_[k], own_hints_[k]);
             own_hints_[k] = near.triangle;
-            result.from.col(column) = own_[k];
-            result.to.col(column) = near.point;
+            result.from.col(static_cast<Eigen::Index>(k / every)) = own_[k];
+            result.to.col(static_cast<Eigen::Index>(k / every)) = near.point;
         }
+        return result;
+    }
+
+    Pairs others_pairs(const Eigen::Affine3d& pose, std::size_t every)
+    {
+        Pairs result = pairs(others_.size(), every);
         const Eigen::Affine3d back = pose.inverse();
-        for (std::size_t k = 0; both_ways && k < others_.size(); ++k, ++column) {
+        for (std::size_t k = 0; k < others_.size(); k += every) {
             const NearestPoint near = elements_.nearest(back * others_[k], others_hints_[k]);
             others_hints_[k] = near.triangle;
-            result.from.col(column) = near.point;
-            result.to.col(column) = others_[k];
+            result.from.col(static_cast<Eigen::Index>(k / every)) = near.point;
+            result.to.col(static_cast<Eigen::Index>(k / every)) = others_[k];
         }
         return result;
     }
@@ -151,18 +182,21 @@ private:
 
 } // namespace
 
-Eigen::Affine3d fit(const Surface& surface, const MeshTree& target, bool rescale)
+Fit fit(const Surface& surface, const MeshTree& target, bool rescale)
 {
     constexpr double close = 0.02; // of the target's size
-    constexpr double clearly = 0.8;
+    constexpr double clearly = 0.9;
     Fitting fitting(surface, target);
-    const Eigen::Affine3d one_way = fitting.pose(rescale, false);
-    const double off = fitting.mean_square(one_way);
-    if (off < close * close * bounds(target.mesh()).sizes().squaredNorm()) {
+    const auto fitted = [&](bool both_ways) {
+        const Eigen::Affine3d pose = fitting.pose(rescale, both_ways);
+        return Fit{pose, fitting.distance(pose)};
+    };
+    const Fit one_way = fitted(false);
+    if (one_way.distance.rms() < close * std::sqrt(fitting.squared_size_of_target())) {
         return one_way;
     }
-    const Eigen::Affine3d both_ways = fitting.pose(rescale, true);
-    return fitting.mean_square(both_ways) < clearly * off ? both_ways : one_way;
+    const Fit both_ways = fitted(true);
+    return both_ways.distance.rms() < clearly * one_way.distance.rms() ? both_ways : one_way;
 }
 
 } // namespace rhombloom

@@ -30,10 +30,17 @@ std::vector<Vec3> sample(const TriangleMesh& mesh, int count);
 //! \brief Distance of a network from its target, by \p samples points on each.
 Distance distance(const Surface& surface, const MeshTree& target, int samples = 6000);
 
+//! \brief A pose of a surface, and how far from the target that is.
+struct Fit
+{
+    Eigen::Affine3d pose;
+    Distance distance; //!< by 1,500 points on each
+};
+
 //! \brief The similarity transform that brings \p surface nearest to \p target; with \p rescale false a rigid motion.
 //! \details Iterated closest points (Besl and McKay 1992) from the present pose: from points of the surface to the
 //! target; where that does not come close, from points of either to the other as well: one way alone shrinks a surface
 //! whose limbs point elsewhere than its target's.
-Eigen::Affine3d fit(const Surface& surface, const MeshTree& target, bool rescale);
+Fit fit(const Surface& surface, const MeshTree& target, bool rescale);
 
 } // namespace rhombloom

@@ -65,16 +65,17 @@ std::vector<Eigen::Matrix3d> turns(const TriangleMesh& settled, const std::vecto
     return result;
 }
 
-double astray(const std::vector<Vec3>& settled, const std::vector<Vec3>& meant, bool rescale)
+Strayed astray(const std::vector<Vec3>& settled, const std::vector<Vec3>& meant, bool rescale)
 {
     expects(settled.size() == meant.size(), "astray: a place for each point");
     using Points = Eigen::Map<const Eigen::Matrix3Xd>;
     const auto count = static_cast<Eigen::Index>(meant.size());
     const Points from(settled.front().data(), 3, count);
     const Points to(meant.front().data(), 3, count);
-    Eigen::Affine3d pose;
-    pose.matrix() = Eigen::umeyama(from, to, rescale);
-    return std::sqrt((pose * from - to).squaredNorm() / static_cast<double>(count));
+    Strayed result;
+    result.pose.matrix() = Eigen::umeyama(from, to, rescale);
+    result.rms = std::sqrt((result.pose * from - to).squaredNorm() / static_cast<double>(count));
+    return result;
 }
 
 } // namespace rhombloom

@@ -9,8 +9,14 @@ namespace rhombloom {
 //! Procrustes problem). \p meant are the points of \p settled on the target.
 std::vector<Eigen::Matrix3d> turns(const TriangleMesh& settled, const std::vector<Vec3>& meant);
 
-//! \brief Distance of points from where they were meant to be after a similarity transform, rms; \p rescale false:
-//! after a rigid motion.
-double astray(const std::vector<Vec3>& settled, const std::vector<Vec3>& meant, bool rescale);
+//! \brief Points in the pose nearest to where they were meant to be, and how far from there they are then, rms.
+struct Strayed
+{
+    Eigen::Affine3d pose;
+    double rms = 0;
+};
+
+//! \brief Corresponding points fitted by a similarity transform (Umeyama 1991); \p rescale false: by a rigid motion.
+Strayed astray(const std::vector<Vec3>& settled, const std::vector<Vec3>& meant, bool rescale);
 
 } // namespace rhombloom

@@ -43,16 +43,19 @@ public:
 
     long run()
     {
+        judge(aim_);
         const auto& progress = trials_.options.progress;
         while (work_ > 0 && (round() || kick()) && (!progress || progress("easing the network"))) {
         }
         if (champion_ && score(*champion_) < score(best_)) {
             best_ = std::move(*champion_);
         }
+        judge(Aim::Near);
         return work_;
     }
 
 private:
+    void judge(Aim aim);
     bool round();
     bool kick();
     std::vector<Place> places();
@@ -79,6 +82,17 @@ private:
     std::optional<Trial> runner_up_;       //!< the best of what was tried since the last gain
     std::map<Corners, std::size_t> tried_; //!< how many of a place's moves were in vain
 };
+
+//! Trials that are not polished are judged for being near.
+void Polishing::judge(Aim aim)
+{
+    if (aim_ == Aim::Near) {
+        return;
+    }
+    if (auto judged = settle(best_.plan, trials_, aim)) {
+        best_ = std::move(*judged);
+    }
+}
 
 //! What an element adds to the distance: to first order; of bends, such that they add up to half of it as well.
 double Polishing::share(const ElementRating& rating) const
@@ -147,7 +161,7 @@ std::vector<std::optional<Trial>> Polishing::settle_all(const std::vector<std::v
     std::vector<std::optional<Trial>> result(sets.size());
     parallel_tasks(default_threads(), static_cast<int>(sets.size()), [&](int k) {
         if (!sets[k].empty()) {
-            result[k] = settle(carry_out(sets[k], best_.plan), trials_);
+            result[k] = settle(carry_out(sets[k], best_.plan), trials_, aim_);
         }
     });
     const long lost = static_cast<long>(best_.ratings.size()) * trials_.max_iterations;

@@ -25,9 +25,12 @@ namespace {
 constexpr double count_tolerance = 0.08;            // of the number of elements, after remeshing
 constexpr double stretch_price = 25;                // la per unit of stretch beyond the limit, summed over the elements
 constexpr double crowding = 1e-2;                   // stretches beyond 1 % are mostly where vertices of degree 7 crowd
-constexpr long most_work = 100'000'000;             // iterations times elements in all: about four minutes
-constexpr long most_straightening = 140'000'000;    // of that unit, besides: a minute
-constexpr long polishing = 6000;                    // iterations per network
+constexpr long most_work = 100'000'000;             // iterations times elements, besides straightening: four minutes
+constexpr int large = 600;                          // elements; with more, a long search finds no more
+constexpr long straightening = 3000;                // iterations per network, and three times as many for the best
+constexpr long large_straightening = 15'000'000;    // iterations times elements: large networks take more rounds
+constexpr long polishing = 3000;                    // iterations per network
+constexpr long easing = 12'000;                     // the same, at first
 constexpr std::size_t most_matched_vertices = 2500; // of the triangulation: a minute
 
 int edge_count(const TriangleMesh& mesh)
@@ -109,8 +112,8 @@ bool is_better(const Trial& a, const Trial& b)
 //! 0.36 with all of it, and with less stretch; at 600 elements there is no such difference.
 double regularity_share(int elements)
 {
-    constexpr double large = 600;
-    return std::min(1.0, large * large / (static_cast<double>(elements) * elements));
+    const double ratio = static_cast<double>(large) / elements;
+    return std::min(1.0, ratio * ratio);
 }
 
 MatchOptions matching(const Trials& trials, const Variant& variant, double temperature, int rounds)
@@ -199,23 +202,20 @@ std::vector<Trial> finalists(std::vector<Trial> found, int attempt)
     return result;
 }
 
-//! Networks whose corners are far from where they were meant to be: limbs point elsewhere. All shortly, then the best
-//! for long. Returns what is left of \p work.
-long straighten(std::vector<Trial>& found, const Trials& trials, long work)
+//! Bring the corners nearer to where they were meant to be: those of all networks shortly, then those of the best for
+//! longer. Polishing for distance alone does not see what turns a limb, and closest points on flat parts tell nothing.
+void straighten(std::vector<Trial>& found, const Trials& trials)
 {
-    constexpr double far = 1;   // la
     constexpr double price = 1; // of stretch: it can be eased afterwards
-    const auto is_far = [](const Trial& trial) { return trial.astray > far; };
+    const int elements = trials.options.elements;
+    const long work = elements > large ? large_straightening : straightening * elements;
     const auto straightness = [](const Trial& trial) { return trial.astray + price * trial.excess; };
-    const long first = work / 6;
     for (Trial& trial : found) {
-        if (is_far(trial) && work > 0) {
-            work -= first - polish(trial, trials, Aim::Straight, price, first);
-        }
+        polish(trial, trials, Aim::Straight, price, work);
     }
     Trial& best = *std::min_element(found.begin(), found.end(),
                                     [&](const Trial& a, const Trial& b) { return straightness(a) < straightness(b); });
-    return is_far(best) && work > 0 ? polish(best, trials, Aim::Straight, price, work) : work;
+    polish(best, trials, Aim::Straight, price, 3 * work);
 }
 
 bool is_nearer_built(const Trial& a, const Trial& b)
@@ -243,34 +243,25 @@ void ease_all(std::vector<Trial>& found, const Trials& trials, double price, lon
     found = std::move(eased);
 }
 
-//! Work that is left for the whole search, iterations times elements.
-struct Left
-{
-    long straightening = 0;
-    long others = most_work;
-};
-
 //! The best of one attempt, eased. First all that promise to be near, shortly and without giving away much distance;
 //! when none of them can be built by that, for long and at any price.
-std::optional<Trial> attempt(const Trials& trials, int number, Left& left)
+std::optional<Trial> attempt(const Trials& trials, int number, long& left)
 {
-    constexpr int large = 600; // elements; with more, what a long search has not found it does not find
     std::vector<Trial> found = finalists(starts(trials, number), number);
     if (found.empty()) {
         return std::nullopt;
     }
     const int elements = trials.options.elements;
-    const long work = polishing * elements; // iterations times elements
     const long long_work = 60000L * std::min(elements, large);
-    left.straightening = straighten(found, trials, left.straightening);
+    straighten(found, trials);
     for (Trial& trial : found) {
-        left.others -= work - polish(trial, trials, Aim::Near, stretch_price, work);
+        left -= polishing * elements - polish(trial, trials, Aim::Near, stretch_price, polishing * elements);
     }
     std::vector<Trial> eased = found;
-    ease_all(eased, trials, stretch_price, 2 * work, left.others);
-    if (!can_be_built(eased.front()) && left.others > 0) {
+    ease_all(eased, trials, stretch_price, easing * elements, left);
+    if (!can_be_built(eased.front()) && left > 0) {
         eased = std::move(found); // as they were: what did not lead to the end has led astray
-        ease_all(eased, trials, 4 * stretch_price, long_work, left.others);
+        ease_all(eased, trials, 4 * stretch_price, long_work, left);
     }
     return std::move(eased.front());
 }
@@ -290,9 +281,9 @@ Expected<FoundNetwork> search_network(const TriangleMesh& target, const Element&
     }
     Trials trials{tree, element, searching};
     const int attempts = std::clamp(2400 / searching.elements, 2, 8); // few elements settle quickly
-    Left left{std::min(most_straightening, 20 * polishing * searching.elements)};
+    long left = most_work;
     std::optional<Trial> best;
-    for (int k = 0; k < attempts && left.others > 0 && !(best && can_be_built(*best)); ++k) {
+    for (int k = 0; k < attempts && left > 0 && !(best && can_be_built(*best)); ++k) {
         auto next = attempt(trials, k, left);
         if (next && (!best || can_be_built(*next) || is_better(*next, *best))) {
             best = std::move(next);

@@ -15,7 +15,6 @@ namespace rhombloom {
 namespace {
 
 constexpr double stretch_limit = 0.0095; // a little below the hundredth that a sheet gives
-constexpr int trial_samples = 2000;
 
 void scale_about_origin(Surface& surface, double factor)
 {
@@ -24,43 +23,64 @@ void scale_about_origin(Surface& surface, double factor)
     }
 }
 
-void rate_elements(const Surface& surface, const Trials& trials, Trial& trial)
+void move(Surface& surface, const Eigen::Affine3d& pose)
+{
+    for (const Vertex v : surface.vertices()) {
+        surface.set_point(v, pose * surface.point(v));
+    }
+}
+
+void rate_stretch(const Surface& surface, const Element& element, Trial& trial)
 {
     trial.ratings.resize(surface.n_faces());
+    for (const Face f : surface.faces()) {
+        const double stretch = element_stretch(surface, element, f);
+        trial.ratings[f.idx()].stretch = stretch;
+        trial.excess += excess_stretch(stretch);
+    }
+}
+
+void find_middles(const Surface& surface, Trial& trial)
+{
     for (const Face f : surface.faces()) {
         const Quad q = quad(surface, f);
         Vec3 sum = Vec3::Zero();
         for (const int v : q) {
             sum += surface.point(Vertex(v));
         }
-        ElementRating& rating = trial.ratings[f.idx()];
-        rating.middle = sum / 4;
-        rating.distance = trials.target.nearest(rating.middle).distance / trials.element.la;
+        trial.ratings[f.idx()].middle = sum / 4;
     }
 }
 
-//! After the trial's plan and surface.
-void rate_bends(const Trials& trials, Trial& trial)
+//! After the trial's plan.
+void rate_bends(const Surface& surface, Trial& trial)
 {
-    const Plan& plan = trial.plan;
-    if (plan.meant.empty()) {
-        return;
-    }
-    const std::vector<Eigen::Matrix3d> turned = turns(plan.triangles, plan.meant);
-    for (const Face f : trial.found.surface.faces()) {
-        const Quad q = quad(trial.found.surface, f);
+    const std::vector<Eigen::Matrix3d> turned = turns(trial.plan.triangles, trial.plan.meant);
+    for (const Face f : surface.faces()) {
+        const Quad q = quad(surface, f);
         trial.ratings[f.idx()].bend = (turned[q[0]] - turned[q[2]]).squaredNorm();
     }
-    trial.astray = astray(plan.triangles.points, plan.meant, trials.options.rescale) / plan.scale / trials.element.la;
 }
 
-EmbedReport embed_quickly(Surface& surface, const Trials& trials)
+//! The points of the plan are where those of its surface are.
+void take_points(const Surface& surface, Plan& plan)
+{
+    for (const Vertex v : surface.vertices()) {
+        const std::size_t k = v.idx();
+        const std::size_t corners = plan.triangles.points.size();
+        (k < corners ? plan.triangles.points[k] : plan.middles[k - corners]) = surface.point(v);
+    }
+}
+
+EmbedReport embed_quickly(Surface& surface, const Trials& trials, Aim aim)
 {
     EmbedOptions quick = trials.options.embedding;
     quick.tolerance = 1e-5;      // a trial need not be exact
     quick.start = Start::Edited; // the target's creases are meant
     quick.max_iterations = trials.max_iterations;
-    quick.threads = 1; // several trials run side by side
+    quick.max_newton_iterations = trials.max_newton_iterations;
+    quick.keep_guards = aim == Aim::Straight; // in folds; they bend no limb, to be rid of them takes half the time
+    quick.threads = 1;                        // several trials run side by side
     return embed_in_place(surface, trials.element, quick);
 }
 
@@ -117,7 +137,7 @@ double score(const Trial& trial, double price)
     return trial.rms + price * trial.excess;
 }
 
-std::optional<Trial> settle(const Plan& plan, const Trials& trials)
+std::optional<Trial> settle(const Plan& plan, const Trials& trials, Aim aim)
 {
     auto surface = surface_of(plan);
     if (!surface || !has_permissible_defects(*surface, trials.element)) {
@@ -125,42 +145,40 @@ std::optional<Trial> settle(const Plan& plan, const Trials& trials)
     }
     Trial trial;
     scale_about_origin(*surface, 1 / plan.scale); // so what was in equilibrium still is
-    trial.found.embedding = embed_quickly(*surface, trials);
+    trial.found.embedding = embed_quickly(*surface, trials, aim);
     if (!trial.found.embedding.converged) {
         return std::nullopt;
     }
-    std::vector<double> stretch;
-    for (const Face f : surface->faces()) {
-        stretch.push_back(element_stretch(*surface, trials.element, f));
-        trial.excess += excess_stretch(stretch.back());
-    }
+    rate_stretch(*surface, trials.element, trial);
     scale_about_origin(*surface, plan.scale);
-    const Eigen::Affine3d pose = fit(*surface, trials.target, trials.options.rescale);
-    for (const Vertex v : surface->vertices()) {
-        surface->set_point(v, pose * surface->point(v));
-    }
-    trial.found.distance = distance(*surface, trials.target, trial_samples);
-    rate_elements(*surface, trials, trial);
-    trial.plan.triangles.triangles = plan.triangles.triangles;
-    trial.plan.flipped = plan.flipped;
-    trial.plan.meant = plan.meant;
-    for (const Vertex v : surface->vertices()) {
-        const bool corner = v.idx() < static_cast<int>(plan.triangles.points.size());
-        (corner ? trial.plan.triangles.points : trial.plan.middles).push_back(surface->point(v));
-    }
+    trial.plan = plan;
+    take_points(*surface, trial.plan);
+    const bool rescale = trials.options.rescale;
+    const Fit fitted = aim == Aim::Near ? fit(*surface, trials.target, rescale)
+                                        : Fit{astray(trial.plan.triangles.points, plan.meant, rescale).pose, {}};
+    move(*surface, fitted.pose);
+    take_points(*surface, trial.plan);
+    find_middles(*surface, trial);
     // All lengths grow so that the elements have their own size again, and the target with them.
-    const double scale = plan.scale * std::cbrt(pose.linear().determinant());
+    const double scale = plan.scale * std::cbrt(fitted.pose.linear().determinant());
+    const double la = scale * trials.element.la; // of the elements on the target as it was searched
+    if (aim == Aim::Near) {
+        for (ElementRating& rating : trial.ratings) {
+            rating.distance = trials.target.nearest(rating.middle).distance / la;
+        }
+    } else {
+        rate_bends(*surface, trial);
+    }
+    if (!plan.meant.empty()) {
+        trial.astray = astray(trial.plan.triangles.points, plan.meant, rescale).rms / la;
+    }
+    trial.rms = fitted.distance.rms() / la;
     trial.plan.scale = scale;
     scale_about_origin(*surface, 1 / scale);
-    for (std::size_t f = 0; f < stretch.size(); ++f) {
-        trial.ratings[f].stretch = stretch[f];
-        trial.ratings[f].distance /= scale;
-    }
-    trial.rms = trial.found.distance.rms() / scale / trials.element.la;
+    trial.found.distance = fitted.distance;
     trial.found.target_scale = 1 / scale;
     trial.found.surface = std::move(*surface);
-    rate_bends(trials, trial);
-    trial.cost = static_cast<long>(stretch.size()) * (trial.found.embedding.iterations + 20);
+    trial.cost = static_cast<long>(trial.ratings.size()) * (trial.found.embedding.iterations + 20);
     return trial;
 }
 

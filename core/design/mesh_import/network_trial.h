@@ -13,7 +13,15 @@ struct Trials
     const MeshTree& target;
     const Element& element;
     const SearchOptions& options;
-    int max_iterations = 1500; //!< of the embedding of one trial; what has not settled by then is no good
+    int max_iterations = 1500;       //!< of the embedding of one trial; what has not settled by then is no good
+    int max_newton_iterations = 100; //!< of these
+};
+
+//! \brief What a network is judged by.
+enum class Aim
+{
+    Near,    //!< little distance from the target
+    Straight //!< corners where they were meant to be
 };
 
 //! \brief The two corners that an element of a join connects, the lower number first.
@@ -35,8 +43,8 @@ struct ElementRating
 {
     Vec3 middle = Vec3::Zero();
     double stretch = 0;  //!< the largest of its sides and diagonals
-    double distance = 0; //!< of the middle from the target, la
-    double bend = 0;     //!< square of the difference of the turns of its two corners; 0 when not known
+    double distance = 0; //!< of the middle from the target, la; if judged for that
+    double bend = 0;     //!< square of the difference of the turns of its two corners; if judged for straightness
 };
 
 //! \brief A plan, the network made of it, and how good that is.
@@ -45,7 +53,7 @@ struct Trial
     Plan plan; //!< points where they settled, on the target as it was searched
     FoundNetwork found;
     std::vector<ElementRating> ratings;
-    double rms = 0;    //!< distance, both ways, la
+    double rms = 0;    //!< distance, both ways, la; if judged for that
     double astray = 0; //!< distance of the corners from where they were meant to be, rms, la; 0 when not known
     double excess = 0; //!< stretch beyond what a sheet gives, summed over the elements
     long cost = 0;     //!< iterations times elements
@@ -77,14 +85,8 @@ bool is_permissible(const Plan& plan, const Trials& trials);
 
 //! \brief Embed the join of \p plan and judge it. Empty when that is no surface, does not settle, or has impermissible
 //! defects.
-std::optional<Trial> settle(const Plan& plan, const Trials& trials);
-
-//! \brief What a network is polished for.
-enum class Aim
-{
-    Near,    //!< little distance from the target
-    Straight //!< corners where they were meant to be
-};
+//! \details Of networks that are judged for straightness the distance is not asked, which would take half the time.
+std::optional<Trial> settle(const Plan& plan, const Trials& trials, Aim aim = Aim::Near);
 
 //! \brief Change the plan by flips, splits and elements turned over, as long as the score falls and less than \p work
 //! iterations times elements are spent. Returns what is left.

@@ -118,9 +118,9 @@ TEST(Fit, ALimbThatPointsElsewhereDoesNotShrinkTheSurface)
     for (Vec3& p : bent.points) {
         p = p.z() > root.z() ? Vec3(root + turn * (p - root)) : p;
     }
-    const Eigen::Affine3d pose = fit(flat_join(bent), target, true);
+    const Eigen::Affine3d pose = fit(flat_join(bent), target, true).pose;
     EXPECT_NEAR(std::cbrt(pose.linear().determinant()), 1, 0.08);
-    EXPECT_NEAR(fit(flat_join(bent), target, false).linear().determinant(), 1, 1e-9);
+    EXPECT_NEAR(fit(flat_join(bent), target, false).pose.linear().determinant(), 1, 1e-9);
 }
 
 TEST(Repair, LeavesASoundMeshAlone)

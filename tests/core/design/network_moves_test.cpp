@@ -117,8 +117,8 @@ TEST(NetworkBends, APoseIsNotAstrayAndADisplacementIsByItsOwnLength)
     for (const Vec3& p : meant.points) {
         moved.emplace_back(2 * (Eigen::AngleAxisd(1, Vec3(1, 2, 3).normalized()) * p) + Vec3(5, -7, 11));
     }
-    EXPECT_LT(astray(moved, meant.points, true), 1e-9);
-    EXPECT_NEAR(astray(moved, meant.points, false), 100, 1e-6); // the radius is twice as large
+    EXPECT_LT(astray(moved, meant.points, true).rms, 1e-9);
+    EXPECT_NEAR(astray(moved, meant.points, false).rms, 100, 1e-6); // the radius is twice as large
 }
 
 TEST(Polish, StraightensALimbThatAFlipHasTurned)
