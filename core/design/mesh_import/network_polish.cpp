@@ -43,19 +43,24 @@ public:
 
     long run()
     {
-        judge(aim_);
+        const Trial given = best_;
+        if (!judge(aim_)) {
+            return work_;
+        }
         const auto& progress = trials_.options.progress;
         while (work_ > 0 && (round() || kick()) && (!progress || progress("easing the network"))) {
         }
         if (champion_ && score(*champion_) < score(best_)) {
             best_ = std::move(*champion_);
         }
-        judge(Aim::Near);
+        if (!judge(Aim::Near)) {
+            best_ = given;
+        }
         return work_;
     }
 
 private:
-    void judge(Aim aim);
+    bool judge(Aim aim);
     bool round();
     bool kick();
     std::vector<Place> places();
@@ -83,15 +88,17 @@ private:
     std::map<Corners, std::size_t> tried_; //!< how many of a place's moves were in vain
 };
 
-//! Trials that are not polished are judged for being near.
-void Polishing::judge(Aim aim)
+//! Judge the best anew: trials that are not being polished are judged for being near. False when it does not settle.
+bool Polishing::judge(Aim aim)
 {
     if (aim_ == Aim::Near) {
-        return;
+        return true;
     }
-    if (auto judged = settle(best_.plan, trials_, aim)) {
+    auto judged = settle(best_.plan, trials_, aim);
+    if (judged) {
         best_ = std::move(*judged);
     }
+    return judged.has_value();
 }
 
 //! What an element adds to the distance: to first order; of bends, such that they add up to half of it as well.
