@@ -1,58 +1,18 @@
 #include "core/design/mesh_import/mesh_decimate.h"
 
 #include <algorithm>
-#include <cstdint>
+#include <cstddef>
+
+#include <OpenMesh/Core/Utils/PropertyManager.hh>
 
 #include "core/design/mesh_import/remesh_mesh.h"
+#include "core/form/parallel.h"
 
 namespace rhombloom {
 
 namespace {
 
 constexpr std::size_t most_triangles = 11; // at one point, or the neighbourhoods grow and with them the work
-
-//! The bits of \p number, two zeros between them.
-std::uint64_t spread_bits(std::uint64_t number, int bits)
-{
-    std::uint64_t result = 0;
-    for (int k = 0; k < bits; ++k) {
-        result |= (number >> k & 1) << 3 * k;
-    }
-    return result;
-}
-
-//! The same mesh, its points and triangles numbered along a space-filling curve (Morton 1966): what is near in space is
-//! near in memory.
-TriangleMesh in_spatial_order(const TriangleMesh& mesh)
-{
-    constexpr int bits = 16; // per axis
-    const Eigen::AlignedBox3d box = bounds(mesh);
-    const double cell = box.sizes().maxCoeff() / ((1 << bits) - 1);
-    std::vector<std::pair<std::uint64_t, int>> order;
-    order.reserve(mesh.points.size());
-    for (const Vec3& p : mesh.points) {
-        std::uint64_t code = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto number = static_cast<std::uint64_t>((p[axis] - box.min()[axis]) / cell);
-            code |= spread_bits(number, bits) << axis;
-        }
-        order.emplace_back(code, static_cast<int>(order.size()));
-    }
-    std::sort(order.begin(), order.end());
-    TriangleMesh result;
-    std::vector<int> number(order.size());
-    for (const auto& [code, point] : order) {
-        number[point] = static_cast<int>(result.points.size());
-        result.points.push_back(mesh.points[point]);
-    }
-    for (const Triangle& t : mesh.triangles) {
-        Triangle numbered = {number[t[0]], number[t[1]], number[t[2]]};
-        std::rotate(numbered.begin(), std::min_element(numbered.begin(), numbered.end()), numbered.end());
-        result.triangles.push_back(numbered);
-    }
-    std::sort(result.triangles.begin(), result.triangles.end());
-    return result;
-}
 
 bool too_long(const EditMesh& mesh, EditMesh::HalfedgeHandle h, double limit)
 {
@@ -65,10 +25,14 @@ bool too_long(const EditMesh& mesh, EditMesh::HalfedgeHandle h, double limit)
     return false;
 }
 
+//! A rim stays: the part of the mesh beyond has it too.
 bool may_collapse(EditMesh& mesh, EditMesh::HalfedgeHandle h, double limit)
 {
     const auto gone = mesh.from_vertex_handle(h);
     const auto kept = mesh.to_vertex_handle(h);
+    if (mesh.is_boundary(gone) || mesh.is_boundary(kept)) {
+        return false;
+    }
     if (mesh.valence(gone) + mesh.valence(kept) > most_triangles + 4 || too_long(mesh, h, limit)) {
         return false;
     }
@@ -99,21 +63,77 @@ int collapse_pass(EditMesh& mesh, double edge)
     return collapsed;
 }
 
+void collapse_short(EditMesh& mesh, double edge)
+{
+    constexpr double growth = 1.7; // of the shortest edge that stays, from pass to pass: triangles remain even
+    constexpr double few = 0.02;
+    double limit = std::min(edge, 1.2 * mean_edge_length(mesh));
+    for (bool last = false; !last;) {
+        last = limit >= edge;
+        while (collapse_pass(mesh, limit) > few * static_cast<double>(mesh.n_vertices())) {
+        }
+        limit = std::min(edge, growth * limit);
+    }
+}
+
+//! What is left of the triangles \p first to \p last of a mesh, when only points within them go.
+std::vector<Triangle> decimated_part(const TriangleMesh& mesh, std::size_t first, std::size_t last, double edge)
+{
+    TriangleMesh part{{}, {mesh.triangles.begin() + first, mesh.triangles.begin() + last}};
+    std::vector<int> points; // of the whole, by their number in the part
+    for (const Triangle& t : part.triangles) {
+        points.insert(points.end(), t.begin(), t.end());
+    }
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    for (const int v : points) {
+        part.points.push_back(mesh.points[v]);
+    }
+    for (Triangle& t : part.triangles) {
+        for (int& v : t) {
+            v = static_cast<int>(std::lower_bound(points.begin(), points.end(), v) - points.begin());
+        }
+    }
+    EditMesh edited = edit_mesh(part);
+    auto number = OpenMesh::makeTemporaryProperty<OpenMesh::VertexHandle, int>(edited);
+    for (const auto v : edited.vertices()) {
+        number[v] = points[v.idx()];
+    }
+    collapse_short(edited, edge);
+    std::vector<Triangle> result = triangle_mesh(edited).triangles;
+    for (Triangle& t : result) {
+        for (int& v : t) {
+            v = number[EditMesh::VertexHandle(v)];
+        }
+    }
+    return result;
+}
+
+//! Of a large mesh whose triangles follow each other in space: parts of it side by side, which the caches hold.
+TriangleMesh decimated_by_parts(const TriangleMesh& mesh, double edge)
+{
+    constexpr std::size_t part_size = 50'000;
+    const std::size_t count = mesh.triangles.size() / part_size;
+    std::vector<std::vector<Triangle>> parts(count);
+    parallel_tasks(default_threads(), static_cast<int>(count), [&](int k) {
+        parts[k] =
+            decimated_part(mesh, k * mesh.triangles.size() / count, (k + 1) * mesh.triangles.size() / count, edge);
+    });
+    TriangleMesh result{mesh.points, {}};
+    for (const std::vector<Triangle>& part : parts) {
+        result.triangles.insert(result.triangles.end(), part.begin(), part.end());
+    }
+    drop_unused_points(result);
+    return result;
+}
+
 } // namespace
 
 TriangleMesh decimate(const TriangleMesh& mesh, double edge)
 {
-    constexpr double growth = 1.7; // of the shortest edge that stays, from pass to pass: triangles remain even
-    constexpr double few = 0.02;
-    constexpr std::size_t many = 200'000; // triangles: from then on most of the time goes by waiting for the memory
-    EditMesh result = edit_mesh(mesh.triangles.size() > many ? in_spatial_order(mesh) : mesh);
-    double limit = std::min(edge, 1.2 * mean_edge_length(result));
-    for (bool last = false; !last;) {
-        last = limit >= edge;
-        while (collapse_pass(result, limit) > few * static_cast<double>(result.n_vertices())) {
-        }
-        limit = std::min(edge, growth * limit);
-    }
+    constexpr std::size_t large = 200'000; // triangles
+    EditMesh result = edit_mesh(mesh.triangles.size() > large ? decimated_by_parts(mesh, edge) : mesh);
+    collapse_short(result, edge);
     return triangle_mesh(result);
 }
 

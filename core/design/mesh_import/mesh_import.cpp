@@ -165,14 +165,14 @@ Expected<ImportedMesh> import_mesh(const TriangleMesh& mesh, const ImportOptions
     ImportedMesh result;
     result.element = options.element;
     result.report.repairs = repaired->repairs;
-    const auto size = sizing(repaired->mesh, options);
+    const auto size = sizing(repaired->tree.mesh(), options);
     if (!size) {
         return tl::make_unexpected(size.error());
     }
-    TriangleMesh& whole = repaired->mesh; // the target in all its detail: what distances are measured from
-    transform(whole, size->factor, Vec3::Zero());
-    auto found =
-        search_network(whole, result.element, {size->elements, size->rescale, options.embedding, options.progress});
+    MeshTree& whole = repaired->tree; // the target in all its detail: what distances are measured from
+    whole.transform(size->factor, Vec3::Zero());
+    auto found = search_network(whole.mesh(), result.element,
+                                {size->elements, size->rescale, options.embedding, options.progress});
     if (!found) {
         return tl::make_unexpected(found.error());
     }
@@ -180,12 +180,12 @@ Expected<ImportedMesh> import_mesh(const TriangleMesh& mesh, const ImportOptions
     result.report.elements_asked = found->elements;
     result.report.scale = size->factor * found->target_scale;
     if (size->height > 0) {
-        const double height = bounds(whole).sizes().z() * found->target_scale;
+        const double height = bounds(whole.mesh()).sizes().z() * found->target_scale;
         rescale(result, found->surface, size->height / height);
     }
     stand(result, found->surface);
-    transform(whole, result.report.scale / size->factor, result.report.shift);
-    result.report.distance = distance(found->surface, MeshTree(std::move(whole)));
+    whole.transform(result.report.scale / size->factor, result.report.shift);
+    result.report.distance = distance(found->surface, whole);
     fill_report(found->surface, *found, result);
     result.operation = import_of(found->surface, options.id);
     result.operation.distance = stored(result.report.distance);

@@ -6,6 +6,7 @@
 
 #include "core/design/mesh_import/mesh_distance.h"
 #include "core/design/mesh_import/mesh_shells.h"
+#include "core/design/mesh_import/mesh_weld.h"
 #include "core/design/mesh_import/mesh_wrap.h"
 #include "core/text.h"
 
@@ -14,11 +15,17 @@ namespace rhombloom {
 namespace {
 
 constexpr double farthest = 1e12;        // beyond, products of coordinates lose all meaning
-constexpr double weld_share = 1e-7;      // of the diagonal: points this near are one
 constexpr double stray_share = 0.1;      // of the area: smaller shells beside the largest are dropped
 constexpr double opening_share = 0.4;    // of the area: larger openings make it an open sheet
 constexpr double cells_per_edge = 5;     // of the wrapping grid, per side of a final triangle
 constexpr double most_cells = 4'000'000; // of the wrapping grid
+
+//! A mesh on its way, and what was done to it.
+struct Repair
+{
+    TriangleMesh mesh;
+    std::vector<std::string> repairs;
+};
 
 std::string counted(std::size_t count, const std::string& thing)
 {
@@ -30,7 +37,7 @@ bool usable(const Vec3& p)
     return p.allFinite() && p.cwiseAbs().maxCoeff() <= farthest;
 }
 
-Expected<void> drop_unusable(RepairedMesh& result)
+Expected<void> drop_unusable(Repair& result)
 {
     std::vector<Triangle>& triangles = result.mesh.triangles;
     const std::size_t before = triangles.size();
@@ -49,36 +56,7 @@ Expected<void> drop_unusable(RepairedMesh& result)
     return {};
 }
 
-//! Equal points become one: sorted along x, compared within the tolerance.
-void weld(RepairedMesh& result)
-{
-    TriangleMesh& mesh = result.mesh;
-    const Eigen::AlignedBox3d box = bounds(mesh);
-    const double cell = weld_share * box.diagonal().norm();
-    if (!(cell > 0)) {
-        return;
-    }
-    using Key = std::array<double, 3>;
-    std::vector<std::pair<Key, int>> keys;
-    keys.reserve(mesh.points.size());
-    for (const Vec3& p : mesh.points) {
-        const Vec3 q = ((p - box.min()) / cell).array().round();
-        keys.emplace_back(Key{q.x(), q.y(), q.z()}, static_cast<int>(keys.size()));
-    }
-    std::sort(keys.begin(), keys.end());
-    std::vector<int> number(mesh.points.size());
-    int first = 0;
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        first = i > 0 && keys[i].first == keys[i - 1].first ? first : keys[i].second;
-        number[keys[i].second] = first;
-    }
-    for (Triangle& t : mesh.triangles) {
-        t = {number[t[0]], number[t[1]], number[t[2]]};
-    }
-    drop_unused_points(mesh);
-}
-
-void drop_degenerate(RepairedMesh& result)
+void drop_degenerate(Repair& result)
 {
     std::vector<Triangle>& triangles = result.mesh.triangles;
     const std::size_t before = triangles.size();
@@ -130,7 +108,7 @@ void close_ring(TriangleMesh& mesh, const std::vector<int>& ring)
     }
 }
 
-Expected<void> close_holes(RepairedMesh& result)
+Expected<void> close_holes(Repair& result)
 {
     const std::vector<std::vector<int>> rings = boundary_rings(result.mesh);
     if (rings.empty()) {
@@ -154,13 +132,12 @@ Expected<void> close_holes(RepairedMesh& result)
 }
 
 //! The share of points just inside the surface that are not inside of it once.
-double crossing_share(const TriangleMesh& mesh)
+double crossing_share(const MeshTree& tree)
 {
     constexpr int probes = 1500;
-    const MeshTree tree(mesh);
-    const double depth = 1e-4 * bounds(mesh).diagonal().norm();
+    const double depth = 1e-4 * bounds(tree.mesh()).diagonal().norm();
     int bad = 0;
-    const std::vector<Vec3> points = sample(mesh, probes);
+    const std::vector<Vec3> points = sample(tree.mesh(), probes);
     for (const Vec3& p : points) {
         const Vec3 normal = tree.normal(tree.nearest(p).triangle);
         const double inside = tree.winding_number(p - depth * normal);
@@ -171,7 +148,7 @@ double crossing_share(const TriangleMesh& mesh)
 }
 
 //! Keep the largest shell by area; refuse when what would be lost is too much.
-Expected<void> keep_largest_shell(RepairedMesh& result, bool cavities_are_gone)
+Expected<void> keep_largest_shell(Repair& result, bool cavities_are_gone)
 {
     const Shells shells = orient_shells(result.mesh);
     std::vector<double> areas(shells.count, 0);
@@ -202,7 +179,7 @@ Expected<void> keep_largest_shell(RepairedMesh& result, bool cavities_are_gone)
 }
 
 //! Voids inside of a solid cannot be seen and not be built.
-void drop_cavities(RepairedMesh& result)
+void drop_cavities(Repair& result)
 {
     const TriangleMesh copy = result.mesh;
     const Shells shells = orient_shells(result.mesh); // turns all outward: a shell that was turned is a void
@@ -224,7 +201,7 @@ void drop_cavities(RepairedMesh& result)
     }
 }
 
-Expected<void> wrap_anew(RepairedMesh& result, int elements, const std::string& why)
+Expected<void> wrap_anew(Repair& result, int elements, const std::string& why)
 {
     const double edge = std::sqrt(area(result.mesh) / elements * 2 * std::sqrt(3.0));
     WrapOptions options;
@@ -248,20 +225,21 @@ Expected<void> wrap_anew(RepairedMesh& result, int elements, const std::string& 
     return {};
 }
 
-//! Why the mesh has to be wrapped; empty when it can stay as it is.
-std::string reason_to_wrap(const TriangleMesh& mesh, const Shells& shells)
+//! Why the mesh has to be wrapped, as far as its connectivity tells; empty when it can stay as it is.
+std::string reason_to_wrap(const Shells& shells)
 {
     if (shells.crowded_edges > 0) {
         return counted(shells.crowded_edges, "edge") + " with more than two triangles";
     }
-    if (shells.count > 1) {
-        return std::to_string(shells.count) + " shells";
-    }
+    return shells.count > 1 ? std::to_string(shells.count) + " shells" : "";
+}
+
+//! The same, as far as its position in space tells.
+std::string reason_to_wrap(const MeshTree& tree)
+{
     constexpr double tolerable = 0.002;
-    if (const double share = crossing_share(mesh); share > tolerable) {
-        return "the surface crosses itself over " + to_fixed(100 * share, 1) + " % of its area";
-    }
-    return {};
+    const double share = crossing_share(tree);
+    return share > tolerable ? "the surface crosses itself over " + to_fixed(100 * share, 1) + " % of its area" : "";
 }
 
 Expected<void> check_two_sided(const Shells& shells)
@@ -280,11 +258,11 @@ Expected<void> check_two_sided(const Shells& shells)
 Expected<RepairedMesh> repair(const TriangleMesh& mesh, const RepairOptions& options)
 {
     const auto tell = [&](const std::string& what) { return !options.progress || options.progress(what); };
-    RepairedMesh result{mesh, {}};
+    Repair result{mesh, {}};
     if (auto ok = drop_unusable(result); !ok) {
         return tl::make_unexpected(ok.error());
     }
-    weld(result);
+    weld(result.mesh);
     drop_degenerate(result);
     if (!tell("repairing the mesh") || result.mesh.triangles.empty() || !(area(result.mesh) > 0)) {
         return refuse("the mesh has no triangle with an area");
@@ -299,13 +277,20 @@ Expected<RepairedMesh> repair(const TriangleMesh& mesh, const RepairOptions& opt
             return tl::make_unexpected(ok.error());
         }
     }
-    if (const std::string why = reason_to_wrap(result.mesh, shells); !why.empty()) {
-        tell("wrapping the mesh");
-        if (auto ok = wrap_anew(result, options.elements, why); !ok) {
-            return tl::make_unexpected(ok.error());
+    std::string why = reason_to_wrap(shells);
+    if (why.empty()) {
+        MeshTree tree(std::move(result.mesh));
+        why = reason_to_wrap(tree);
+        if (why.empty()) {
+            return RepairedMesh{std::move(tree), std::move(result.repairs)};
         }
+        result.mesh = tree.mesh();
     }
-    return result;
+    tell("wrapping the mesh");
+    if (auto ok = wrap_anew(result, options.elements, why); !ok) {
+        return tl::make_unexpected(ok.error());
+    }
+    return RepairedMesh{MeshTree(std::move(result.mesh)), std::move(result.repairs)};
 }
 
 } // namespace rhombloom

@@ -3,14 +3,14 @@
 #include <functional>
 #include <string>
 
-#include "core/design/mesh_import/triangle_mesh.h"
+#include "core/design/mesh_import/mesh_tree.h"
 
 namespace rhombloom {
 
 //! \brief A closed, connected, oriented manifold and what had to be done to get it.
 struct RepairedMesh
 {
-    TriangleMesh mesh;
+    MeshTree tree;
     std::vector<std::string> repairs; //!< for people, one sentence each; empty when the mesh was sound
 };
 

@@ -4,11 +4,27 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/form/parallel.h"
+
 namespace rhombloom {
 
 namespace {
 
 constexpr int leaf_size = 4;
+
+//! Nodes of a tree over \p count triangles. Every level has nodes of two sizes, one apart.
+int tree_size(int count)
+{
+    int nodes = 0;
+    int small = 1; // nodes of this size
+    int large = 0; // of one more
+    int size = count;
+    for (; size > leaf_size; size /= 2) {
+        nodes += small + large;
+        (size % 2 == 0 ? small : large) += small + large;
+    }
+    return nodes + small + (size < leaf_size ? large : 3 * large);
+}
 
 //! As Eigen's squaredExteriorDistance(), without branches that cannot be predicted.
 double squared_distance(const Eigen::AlignedBox3d& box, const Vec3& p)
@@ -78,11 +94,11 @@ MeshTree::MeshTree(TriangleMesh mesh) : mesh_(std::move(mesh)), order_(mesh_.tri
         normals_.push_back(normal.norm() > 0 ? Vec3(normal.normalized()) : Vec3(Vec3::Zero()));
         middles_.emplace_back((mesh_.points[t[0]] + mesh_.points[t[1]] + mesh_.points[t[2]]) / 3);
     }
-    nodes_.reserve(order_.size());
-    dipoles_.reserve(order_.size());
-    nodes_.emplace_back();
-    dipoles_.emplace_back();
-    build(0, 0, static_cast<int>(order_.size()));
+    const int count = static_cast<int>(order_.size());
+    nodes_.resize(tree_size(count));
+    dipoles_.resize(nodes_.size());
+    constexpr int many = 100'000; // triangles: threads pay
+    build(0, 0, count, 1, count < many ? 1 : default_threads());
     corners_.reserve(order_.size());
     for (const int k : order_) {
         const Triangle& t = mesh_.triangles[k];
@@ -120,7 +136,8 @@ void MeshTree::sum_up(int index)
     }
 }
 
-void MeshTree::build(int index, int first, int count)
+//! \param left Where the node's children and all below them are put.
+void MeshTree::build(int index, int first, int count, int left, int threads)
 {
     Eigen::AlignedBox3d box;
     for (int i = first; i < first + count; ++i) {
@@ -139,17 +156,45 @@ void MeshTree::build(int index, int first, int count)
         };
         const int half = count / 2;
         std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count, before);
-        const int left = static_cast<int>(nodes_.size());
         nodes_[index].left = left;
-        nodes_.resize(nodes_.size() + 2);
-        dipoles_.resize(nodes_.size());
-        build(left, first, half);
-        build(left + 1, first + half, count - half);
+        const auto build_child = [&](int k) {
+            if (k == 0) {
+                build(left, first, half, left + 2, threads / 2);
+            } else {
+                build(left + 1, first + half, count - half, left + 1 + tree_size(half), threads - threads / 2);
+            }
+        };
+        if (threads > 1) {
+            parallel_tasks(2, 2, build_child);
+        } else {
+            build_child(0);
+            build_child(1);
+        }
         sum_up(index);
     }
     Dipole& dipole = dipoles_[index];
     dipole.centre = dipole.area > 0 ? Vec3(dipole.centre / dipole.area) : Vec3(box.center());
     dipole.radius = (box.max() - dipole.centre).cwiseMax(dipole.centre - box.min()).norm();
+}
+
+void MeshTree::transform(double factor, const Vec3& shift)
+{
+    expects(factor > 0, "MeshTree::transform: the factor is positive");
+    const auto moved = [&](const Vec3& p) -> Vec3 { return factor * p + shift; };
+    rhombloom::transform(mesh_, factor, shift);
+    std::transform(middles_.begin(), middles_.end(), middles_.begin(), moved);
+    for (std::array<Vec3, 3>& corners : corners_) {
+        std::transform(corners.begin(), corners.end(), corners.begin(), moved);
+    }
+    for (Node& node : nodes_) {
+        node.box = Eigen::AlignedBox3d(moved(node.box.min()), moved(node.box.max()));
+    }
+    for (Dipole& dipole : dipoles_) {
+        dipole.moment *= factor * factor;
+        dipole.centre = moved(dipole.centre);
+        dipole.area *= factor * factor;
+        dipole.radius *= factor;
+    }
 }
 
 NearestPoint MeshTree::nearest(const Vec3& p, int hint) const

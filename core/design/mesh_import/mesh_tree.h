@@ -25,8 +25,11 @@ public:
     NearestPoint nearest(const Vec3& p, int hint = -1) const;
 
     //! \brief Generalised winding number (Jacobson et al. 2013): 1 inside, 0 outside a closed mesh, in between where it
-    //! has holes. Far groups of triangles count as one dipole (Barill et al. 2018), good to about 0.01.
+    //! has holes. Far groups of triangles count as one dipole (Barill et al. 2018), good to a few hundredths.
     double winding_number(const Vec3& p) const;
+
+    //! \brief Every point p becomes factor * p + shift.
+    void transform(double factor, const Vec3& shift);
 
     //! \brief Unit normal of triangle \p t.
     const Vec3& normal(int t) const { return normals_[t]; }
@@ -49,7 +52,7 @@ private:
         double radius = 0;
     };
 
-    void build(int node, int first, int count);
+    void build(int node, int first, int count, int left, int threads);
     void make_leaf(int node, int first, int count);
     void sum_up(int node);
 

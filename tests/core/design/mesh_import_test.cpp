@@ -128,7 +128,7 @@ TEST(Repair, LeavesASoundMeshAlone)
     const auto repaired = repair(sphere(10), {});
     ASSERT_TRUE(repaired);
     EXPECT_TRUE(repaired->repairs.empty());
-    EXPECT_EQ(repaired->mesh.triangles.size(), sphere(10).triangles.size());
+    EXPECT_EQ(repaired->tree.mesh().triangles.size(), sphere(10).triangles.size());
 }
 
 TEST(Repair, TurnsAllTrianglesOutward)
@@ -139,7 +139,7 @@ TEST(Repair, TurnsAllTrianglesOutward)
     }
     const auto repaired = repair(mesh, {});
     ASSERT_TRUE(repaired);
-    EXPECT_NEAR(signed_volume(repaired->mesh), signed_volume(sphere(10)), 1e-6);
+    EXPECT_NEAR(signed_volume(repaired->tree.mesh()), signed_volume(sphere(10)), 1e-6);
 }
 
 TEST(Repair, ClosesAHole)
@@ -149,7 +149,7 @@ TEST(Repair, ClosesAHole)
     const auto repaired = repair(mesh, {});
     ASSERT_TRUE(repaired);
     EXPECT_EQ(repaired->repairs.size(), 1U);
-    EXPECT_NEAR(signed_volume(repaired->mesh), signed_volume(sphere(10)), 1);
+    EXPECT_NEAR(signed_volume(repaired->tree.mesh()), signed_volume(sphere(10)), 1);
 }
 
 TEST(Repair, WrapsTwoCrossingBallsAsOneSolid)
@@ -167,8 +167,8 @@ TEST(Repair, WrapsTwoCrossingBallsAsOneSolid)
     const auto repaired = repair(mesh, {});
     ASSERT_TRUE(repaired);
     const double ball = signed_volume(sphere(10));
-    EXPECT_GT(signed_volume(repaired->mesh), 1.3 * ball);
-    EXPECT_LT(signed_volume(repaired->mesh), 1.8 * ball);
+    EXPECT_GT(signed_volume(repaired->tree.mesh()), 1.3 * ball);
+    EXPECT_LT(signed_volume(repaired->tree.mesh()), 1.8 * ball);
 }
 
 TEST(ImportMesh, MakesABallThatCanBeBuilt)
