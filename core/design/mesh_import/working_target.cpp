@@ -34,10 +34,10 @@ double least_gap_width(const Element& element)
 WorkingTarget working_target(const TriangleMesh& target, double edge, int elements)
 {
     constexpr int most_rounds = 4;
-    constexpr double near = 0.01;
+    constexpr double near = 0.05; // what is thickened or filled may be that much less so in the end
     WorkingTarget result;
     TriangleMesh scaled = decimate(target, edge / (2 * detail));
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 1; round <= most_rounds; ++round) {
         // In triangles that are small for the network and even: quick to ask, whatever the file had.
         result.even = evened(MeshTree(scaled), edge / detail);
         ThickenedMesh thickened = thicken(result.even, {least_radius * edge, edge / detail});
@@ -48,11 +48,16 @@ WorkingTarget working_target(const TriangleMesh& target, double edge, int elemen
         const double count = area(result.thick) / area_per_element(edge);
         result.elements = elements > 0 ? elements : static_cast<int>(std::lround(count));
         const double factor = std::sqrt(result.elements / count);
-        if (elements == 0 || result.thickened + result.filled == 0 || std::abs(factor - 1) < near) {
+        if (elements == 0 || result.thickened + result.filled == 0) {
+            break;
+        }
+        result.scale *= factor;
+        if (std::abs(factor - 1) < near || round == most_rounds) {
+            transform(result.even, factor, Vec3::Zero());
+            transform(result.thick, factor, Vec3::Zero());
             break;
         }
         transform(scaled, factor, Vec3::Zero());
-        result.scale *= factor;
     }
     return result;
 }
