@@ -29,6 +29,7 @@ constexpr long most_work = 100'000'000;             // iterations times elements
 constexpr int large = 600;                          // elements; with more, a long search finds no more
 constexpr long straightening = 3000;                // iterations per network, and three times as many for the best
 constexpr long large_straightening = 15'000'000;    // iterations times elements: large networks take more rounds
+constexpr long long_straightening = 100'000;        // iterations for the best, when limbs still point elsewhere
 constexpr long polishing = 3000;                    // iterations per network
 constexpr long easing = 12'000;                     // the same, at first
 constexpr std::size_t most_matched_vertices = 2500; // of the triangulation: a minute
@@ -203,10 +204,12 @@ std::vector<Trial> finalists(std::vector<Trial> found, int attempt)
 }
 
 //! Bring the corners nearer to where they were meant to be: those of all networks shortly, then those of the best for
-//! longer. Polishing for distance alone does not see what turns a limb, and closest points on flat parts tell nothing.
+//! longer, and for long if its limbs still point elsewhere. Polishing for distance alone does not see what turns a
+//! limb, and closest points on flat parts tell nothing.
 void straighten(std::vector<Trial>& found, const Trials& trials)
 {
-    constexpr double price = 1; // of stretch: it can be eased afterwards
+    constexpr double price = 1;          // of stretch: it can be eased afterwards
+    constexpr double limbs_astray = 0.9; // la: more, and limbs point elsewhere
     const int elements = trials.options.elements;
     const long work = elements > large ? large_straightening : straightening * elements;
     const auto straightness = [](const Trial& trial) { return trial.astray + price * trial.excess; };
@@ -215,7 +218,8 @@ void straighten(std::vector<Trial>& found, const Trials& trials)
     }
     Trial& best = *std::min_element(found.begin(), found.end(),
                                     [&](const Trial& a, const Trial& b) { return straightness(a) < straightness(b); });
-    polish(best, trials, Aim::Straight, price, 3 * work);
+    const long long_work = long_straightening * std::min(elements, large);
+    polish(best, trials, Aim::Straight, price, best.astray > limbs_astray ? std::max(long_work, 3 * work) : 3 * work);
 }
 
 bool is_nearer_built(const Trial& a, const Trial& b)
@@ -243,8 +247,15 @@ void ease_all(std::vector<Trial>& found, const Trials& trials, double price, lon
     found = std::move(eased);
 }
 
+//! Is one of \p found much nearer than what can be built?
+bool promises_more(const std::vector<Trial>& found, const Trial& built)
+{
+    constexpr double much = 0.8;
+    return std::any_of(found.begin(), found.end(), [&](const Trial& trial) { return trial.rms < much * built.rms; });
+}
+
 //! The best of one attempt, eased. First all that promise to be near, shortly and without giving away much distance;
-//! when none of them can be built by that, for long and at any price.
+//! when none of them can be built by that, or only one that is farther off, for long and at any price.
 std::optional<Trial> attempt(const Trials& trials, int number, long& left)
 {
     std::vector<Trial> found = finalists(starts(trials, number), number);
@@ -259,7 +270,11 @@ std::optional<Trial> attempt(const Trials& trials, int number, long& left)
     }
     std::vector<Trial> eased = found;
     ease_all(eased, trials, stretch_price, easing * elements, left);
-    if (!can_be_built(eased.front()) && left > 0) {
+    const bool built = can_be_built(eased.front());
+    if ((!built || promises_more(found, eased.front())) && left > 0) {
+        if (built) {
+            found.push_back(std::move(eased.front()));
+        }
         eased = std::move(found); // as they were: what did not lead to the end has led astray
         ease_all(eased, trials, 4 * stretch_price, long_work, left);
     }
