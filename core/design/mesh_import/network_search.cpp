@@ -254,10 +254,22 @@ bool promises_more(const std::vector<Trial>& found, const Trial& built)
     return std::any_of(found.begin(), found.end(), [&](const Trial& trial) { return trial.rms < much * built.rms; });
 }
 
+//! Polish the nearest of those that cannot be built, with stretch at \p price: steps which easing does not take.
+void shake(std::vector<Trial>& eased, const Trials& trials, double price, long work, long& left)
+{
+    const auto behind = [](const Trial& trial) { return std::pair(can_be_built(trial), score(trial, stretch_price)); };
+    Trial& near = *std::min_element(eased.begin(), eased.end(),
+                                    [&](const Trial& a, const Trial& b) { return behind(a) < behind(b); });
+    if (!can_be_built(near)) {
+        left -= work - polish(near, trials, Aim::Near, price, work);
+    }
+}
+
 //! The best of one attempt, eased. First all that promise to be near, shortly and without giving away much distance;
-//! when none of them can be built by that, or only one that is farther off, for long and at any price.
+//! when none of them can be built by that, or only one that is farther off, at a higher price, and at last for long.
 std::optional<Trial> attempt(const Trials& trials, int number, long& left)
 {
+    constexpr double higher_price = 4 * stretch_price;
     std::vector<Trial> found = finalists(starts(trials, number), number);
     if (found.empty()) {
         return std::nullopt;
@@ -270,13 +282,19 @@ std::optional<Trial> attempt(const Trials& trials, int number, long& left)
     }
     std::vector<Trial> eased = found;
     ease_all(eased, trials, stretch_price, easing * elements, left);
-    const bool built = can_be_built(eased.front());
-    if ((!built || promises_more(found, eased.front())) && left > 0) {
-        if (built) {
+    const auto goes_on = [&] {
+        return left > 0 && (!can_be_built(eased.front()) || promises_more(found, eased.front()));
+    };
+    if (goes_on()) {
+        shake(eased, trials, higher_price, polishing * elements, left);
+        ease_all(eased, trials, higher_price, easing * elements, left);
+    }
+    if (goes_on()) {
+        if (can_be_built(eased.front())) {
             found.push_back(std::move(eased.front()));
         }
         eased = std::move(found); // as they were: what did not lead to the end has led astray
-        ease_all(eased, trials, 4 * stretch_price, long_work, left);
+        ease_all(eased, trials, higher_price, long_work, left);
     }
     return std::move(eased.front());
 }
