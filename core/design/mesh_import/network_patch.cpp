@@ -16,6 +16,7 @@ namespace {
 constexpr int reach = 4; // edges from the place to the last corners that have all their triangles
 constexpr double tolerance = 1e-4;
 constexpr int most_iterations = 400;
+constexpr int most_newton_iterations = 60; // of these, and as many without guards: what comes to rest takes about 14
 
 using Neighbours = std::vector<std::vector<int>>;
 
@@ -182,11 +183,13 @@ std::optional<int> settle_free(Surface& surface, const std::vector<bool>& is_fre
     MinimiseOptions options;
     options.tolerance = tolerance;
     options.max_iterations = most_iterations;
+    options.max_newton_iterations = most_newton_iterations;
     MinimiseResult result = minimise(terms, iterate, options);
     if (result.reason == StopReason::Converged && embedding_energy(terms, iterate.x).guard > 0) {
         remove_guards(terms); // they only help on the way
         iterate = iterate_at(terms, std::move(iterate.x));
         const int before = result.iterations;
+        options.max_iterations = most_newton_iterations;
         result = newton(terms, iterate, options);
         result.iterations += before;
     }
