@@ -51,10 +51,11 @@ Expected<MeshFile> read_off(std::string_view bytes)
     }
     long long points = 0;
     long long faces = 0;
-    if (!parse_integer(word, points) || !parse_integer(scanner.any_word(), faces) || points < 1 || faces < 1) {
+    if (!parse_integer(word, points) || !parse_integer(scanner.any_word(), faces) || points < 0 || faces < 0) {
         return refuse("the file does not begin with OFF and the numbers of points and faces");
     }
-    if (points + faces > static_cast<long long>(bytes.size())) {
+    const auto size = static_cast<long long>(bytes.size());
+    if (points > size || faces > size) {
         return refuse("the file announces " + std::to_string(points) + " points and " + std::to_string(faces) +
                       " faces, but ends before");
     }
