@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <mutex>
+#include <numeric>
 #include <optional>
 #include <tuple>
 
@@ -203,23 +205,34 @@ std::vector<Trial> finalists(std::vector<Trial> found, int attempt)
     return result;
 }
 
-//! Bring the corners nearer to where they were meant to be: those of all networks shortly, then those of the best for
-//! longer, and for long if its limbs still point elsewhere. Polishing for distance alone does not see what turns a
-//! limb, and closest points on flat parts tell nothing.
-void straighten(std::vector<Trial>& found, const Trials& trials)
+//! Straighten and polish side by side: one network alone does not keep two threads busy. To straighten is to bring the
+//! corners nearer to where they were meant to be: those of all networks shortly, then those of the best for longer, and
+//! for long if its limbs still point elsewhere. Polishing for distance alone does not see what turns a limb, and
+//! closest points on flat parts tell nothing. Returns the work that polishing took.
+long straighten_and_polish(std::vector<Trial>& found, const Trials& trials)
 {
     constexpr double price = 1;          // of stretch: it can be eased afterwards
     constexpr double limbs_astray = 0.9; // la: more, and limbs point elsewhere
     const int elements = trials.options.elements;
+    const int count = static_cast<int>(found.size());
     const long work = elements > large ? large_straightening : straightening * elements;
+    parallel_tasks(count, count, [&](int k) { polish(found[k], trials, Aim::Straight, price, work); });
     const auto straightness = [](const Trial& trial) { return trial.astray + price * trial.excess; };
-    for (Trial& trial : found) {
-        polish(trial, trials, Aim::Straight, price, work);
-    }
-    Trial& best = *std::min_element(found.begin(), found.end(),
-                                    [&](const Trial& a, const Trial& b) { return straightness(a) < straightness(b); });
-    const long long_work = long_straightening * std::min(elements, large);
-    polish(best, trials, Aim::Straight, price, best.astray > limbs_astray ? std::max(long_work, 3 * work) : 3 * work);
+    const auto best =
+        std::min_element(found.begin(), found.end(),
+                         [&](const Trial& a, const Trial& b) { return straightness(a) < straightness(b); }) -
+        found.begin();
+    const long limb_work = std::max(3 * work, long_straightening * std::min(elements, large));
+    const long more_work = found[best].astray > limbs_astray ? limb_work : 3 * work;
+    const long given = polishing * elements;
+    std::vector<long> spent(count);
+    parallel_tasks(count, count, [&](int k) {
+        if (k == best) {
+            polish(found[k], trials, Aim::Straight, price, more_work);
+        }
+        spent[k] = given - polish(found[k], trials, Aim::Near, stretch_price, given);
+    });
+    return std::accumulate(spent.begin(), spent.end(), 0L);
 }
 
 bool is_nearer_built(const Trial& a, const Trial& b)
@@ -276,10 +289,7 @@ std::optional<Trial> attempt(const Trials& trials, int number, long& left)
     }
     const int elements = trials.options.elements;
     const long long_work = 60000L * std::min(elements, large);
-    straighten(found, trials);
-    for (Trial& trial : found) {
-        left -= polishing * elements - polish(trial, trials, Aim::Near, stretch_price, polishing * elements);
-    }
+    left -= straighten_and_polish(found, trials);
     std::vector<Trial> eased = found;
     ease_all(eased, trials, stretch_price, easing * elements, left);
     const auto goes_on = [&] {
@@ -303,11 +313,16 @@ std::optional<Trial> attempt(const Trials& trials, int number, long& left)
 
 Expected<FoundNetwork> search_network(const TriangleMesh& target, const Element& element, const SearchOptions& options)
 {
-    const auto tell = [&](const std::string& what) { return !options.progress || options.progress(what); };
+    std::mutex telling; // networks are worked on side by side
+    const auto tell = [&](const std::string& what) {
+        const std::lock_guard lock(telling);
+        return !options.progress || options.progress(what);
+    };
     tell("simplifying the target");
     WorkingTarget working = working_target(target, triangle_edge(element), options.rescale ? options.elements : 0);
     const MeshTree tree(std::move(working.thick));
     SearchOptions searching = options;
+    searching.progress = tell;
     searching.elements = working.elements;
     if (!tell("remeshing")) {
         return refuse("stopped");
