@@ -70,12 +70,25 @@ void judge_stretch(Buildability& report, const Surface& surface, const Piece& pi
     }
 }
 
-void judge_embedding(Buildability& report)
+//! The element that is bent most, for a sentence.
+std::string most_compressed(const Surface& surface, const Element& element)
+{
+    const auto compression = [&](Face f) { return element_compression(surface, element, f); };
+    const Face worst = *std::max_element(surface.faces_begin(), surface.faces_end(),
+                                         [&](Face a, Face b) { return compression(a) < compression(b); });
+    return "element " + std::to_string(worst.idx()) + " in \"" + surface.components[surface.data(worst).component] +
+           "\", pressed together to " + to_fixed(100 * (1 - compression(worst)), 0) + " % of a length";
+}
+
+void judge_embedding(Buildability& report, const Surface& surface, const Element& element)
 {
     const EmbedReport& e = report.embedding;
     if (!e.converged) {
         report.problems.push_back("the shape did not come to rest (largest gradient " + to_text(e.gradient_norm) +
                                   "): " + e.message);
+    } else if (!e.message.empty()) {
+        report.warnings.push_back(e.message + " (most of all " + most_compressed(surface, element) +
+                                  "): give that part more elements or fewer folds");
     }
 }
 
@@ -133,7 +146,7 @@ Buildability buildability(const Replay& replay, const Piece& piece)
     report.defects = defect_range(surface, piece.element);
     report.embedding = replay.embedding;
     report.problems = validity.problems;
-    judge_embedding(report);
+    judge_embedding(report, surface, piece.element);
     judge_stretch(report, surface, piece);
     judge_defects(report, surface, piece.element);
     report.hooks = hook_checks(piece.parameters.hook, {piece.parameters.kerf, piece.material.strain_limit,

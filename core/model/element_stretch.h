@@ -12,4 +12,7 @@ inline constexpr double usual_stretch_limit = 0.01;
 //! la.
 double element_stretch(const Surface& surface, const Element& element, Face f);
 
+//! \brief The largest (L - l) / L of an element's sides and diagonals: how far it is bent or folded.
+double element_compression(const Surface& surface, const Element& element, Face f);
+
 } // namespace rhombloom

@@ -43,5 +43,26 @@ TEST(Buildability, LetsMoreStretchPassWithAWarningWhenItIsAllowed)
     EXPECT_NE(report.warnings.front().find("a usual sheet gives 1 %"), std::string::npos) << report.warnings.front();
 }
 
+TEST(Buildability, TellsWhichElementCollapsesMost)
+{
+    const auto design =
+        parse_design(R"({"rhombloom": 1, "operations": [{"op": "place", "id": "tile", "shape": "sheet-1x1"}]})");
+    ASSERT_TRUE(design) << design.error().message;
+    auto replayed = replay(*design);
+    const auto piece = make_piece(design->element, std::nullopt, {});
+    ASSERT_TRUE(replayed && piece);
+    EXPECT_TRUE(buildability(*replayed, *piece).warnings.empty());
+    for (const Vertex v : replayed->surface.vertices()) {
+        replayed->surface.set_point(v, 0.6 * replayed->surface.point(v));
+    }
+    EXPECT_NEAR(element_compression(replayed->surface, design->element, Face(0)), 0.4, 1e-6);
+    replayed->embedding.message = "elements collapse";
+    const Buildability report = buildability(*replayed, *piece);
+    EXPECT_TRUE(report.ok());
+    ASSERT_EQ(report.warnings.size(), 1u);
+    EXPECT_NE(report.warnings.front().find("element 0 in \"tile\", pressed together to 60 %"), std::string::npos)
+        << report.warnings.front();
+}
+
 } // namespace
 } // namespace rhombloom
