@@ -195,6 +195,9 @@ Expected<ImportedMesh> import_mesh(const TriangleMesh& mesh, const ImportOptions
             result.report.repairs.push_back(remark);
         }
     }
+    if (result.report.embedding.converged && !result.report.embedding.message.empty()) {
+        result.report.warnings.push_back(result.report.embedding.message);
+    }
     if (const std::string far = distance_warning(result.operation, result.element); !far.empty()) {
         result.report.warnings.push_back(far);
     }
