@@ -168,8 +168,10 @@ EmbeddingTerms with_held(EmbeddingTerms terms, const std::vector<bool>& is_free,
     return terms;
 }
 
-//! Bring the free vertices to rest; the iterations it took, none when it did not.
-std::optional<int> settle_free(Surface& surface, const std::vector<bool>& is_free, const Trials& trials)
+//! Bring the free vertices to rest; the iterations it took, none when it did not. \p may_keep_guards: where there is no
+//! rest without them.
+std::optional<int> settle_free(Surface& surface, const std::vector<bool>& is_free, const Trials& trials,
+                               bool may_keep_guards)
 {
     const double la = trials.element.la;
     std::vector<int> number;
@@ -187,11 +189,14 @@ std::optional<int> settle_free(Surface& surface, const std::vector<bool>& is_fre
     MinimiseResult result = minimise(terms, iterate, options);
     if (result.reason == StopReason::Converged && embedding_energy(terms, iterate.x).guard > 0) {
         remove_guards(terms); // they only help on the way
-        iterate = iterate_at(terms, std::move(iterate.x));
-        const int before = result.iterations;
+        Iterate pure = iterate_at(terms, iterate.x);
         options.max_iterations = most_newton_iterations;
-        result = newton(terms, iterate, options);
-        result.iterations += before;
+        const MinimiseResult without = newton(terms, pure, options);
+        result.iterations += without.iterations;
+        if (without.reason == StopReason::Converged || !may_keep_guards) {
+            result.reason = without.reason;
+            iterate = std::move(pure);
+        }
     }
     if (result.reason != StopReason::Converged) {
         return std::nullopt;
@@ -295,7 +300,8 @@ std::optional<Patch> changed(const Patch& patch, const Move& move, const Trial& 
         return std::nullopt;
     }
     const TriangleMesh& mesh = result.plan.triangles;
-    const auto iterations = settle_free(*surface, free_vertices(mesh, depths(mesh)), trials);
+    const bool is_guarded = whole.found.embedding.guard_energy > 0;
+    const auto iterations = settle_free(*surface, free_vertices(mesh, depths(mesh)), trials, is_guarded);
     if (!iterations) {
         return std::nullopt;
     }
